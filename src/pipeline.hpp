@@ -1,0 +1,56 @@
+// pipeline.hpp
+//
+// The whole program, top to bottom: model files -> parts -> layers -> paths -> order -> G-code.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "model/config.hpp"
+#include "model/placement.hpp"
+
+namespace cleancolor {
+
+struct ModelFile {
+  std::filesystem::path path;
+  std::optional<int> extruder;  // 0-based; of all its parts
+};
+
+/// What is done where two parts claim the same place.
+enum class Overlap { refuse, first, last };
+
+struct SliceRequest {
+  std::vector<ModelFile> files;                // at least one
+  std::map<std::uint32_t, int> extruder_of_rgb;  // --map-colour: 0xRRGGBB -> extruder, 0-based
+  Config config;
+  Placement placement;
+  Overlap overlap = Overlap::refuse;
+  std::filesystem::path output;                // written aside and renamed
+  std::filesystem::path preview;               // a PNG picture of the coloured parts; empty: none
+  int threads = 0;                             // 0: as many as the machine has
+};
+
+struct ExtruderUse {
+  double filament_mm = 0;
+  double filament_g = 0;
+  double cost = 0;
+};
+
+struct Summary {
+  int layers = 0;
+  int tool_changes = 0;
+  double time_s = 0;                     // heating not included
+  std::vector<ExtruderUse> extruders;    // one for each extruder of the config
+};
+
+/// Slices the files and writes one G-code file.
+///
+/// Throws Error where input or options cannot be used (no output is left), SystemError where writing fails.
+/// The same request gives the same bytes for any number of threads.
+Summary slice(const SliceRequest& request, const Progress& progress = {});
+
+}  // namespace cleancolor
