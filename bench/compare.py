@@ -93,18 +93,20 @@ def roles_table(name, prusa, ours):
     return lines
 
 
-HEADER = ("| model | PrusaSlicer s | cleancolor s | ratio | CPU s | peak MB | plastic, extruder 1 / 2 in cm3 | difference |\n"
-          "|---|---|---|---|---|---|---|---|")
+HEADER = ("| model | wall time in s: PrusaSlicer | cleancolor | ratio | CPU s | peak MB | plastic of extruder 1 / 2, cm3 | "
+          "difference |\n|---|---|---|---|---|---|---|---|")
 
 
 def table_row(name, prusa, ours):
-    if not ours:
-        laid = " / ".join(f"{mm3 / 1000:.2f}" for _, mm3 in sorted(plastic_per_tool(prusa["plastic"]).items()))
-        return f"| {name} | {prusa['wall_s']:.2f} | - | - | {prusa['cpu_s']:.2f} | {prusa['memory_mb']:.0f} | {laid} | - |"
-    laid = " / ".join(f"{mm3 / 1000:.2f}" for _, mm3 in sorted(plastic_per_tool(ours["plastic"]).items()))
-    difference = " / ".join(f"{percent:+.1f} %" for percent in differences(prusa, ours).values())
-    return (f"| {name} | {prusa['wall_s']:.2f} | {ours['wall_s']:.2f} | {ours['wall_s'] / prusa['wall_s']:.2f} | "
-            f"{prusa['cpu_s']:.2f}, ours {ours['cpu_s']:.2f} | {prusa['memory_mb']:.0f}, ours {ours['memory_mb']:.0f} | "
+    def both(key, digits):
+        return " / ".join(f"{slicer[key]:.{digits}f}" for slicer in (prusa, ours) if slicer)
+
+    laid = " / ".join(f"{mm3 / 1000:.2f}" for _, mm3 in sorted(plastic_per_tool((ours or prusa)["plastic"]).items()))
+    wall_s, ratio, difference = "-", "-", "-"
+    if ours:
+        wall_s, ratio = f"{ours['wall_s']:.2f}", f"{ours['wall_s'] / prusa['wall_s']:.2f}"
+        difference = " / ".join(f"{percent:+.1f} %" for percent in differences(prusa, ours).values())
+    return (f"| {name} | {prusa['wall_s']:.2f} | {wall_s} | {ratio} | {both('cpu_s', 2)} | {both('memory_mb', 0)} | "
             f"{laid} | {difference} |")
 
 
@@ -127,18 +129,23 @@ def failures(results, with_time):
 
 
 def write_markdown(results, rounds):
-    """docs/benchmarks.md: the table as it stands on this machine."""
-    rows = "\n".join(table_row(name, *pair) for name, pair in results.items())
+    """docs/benchmarks.md, and the table of the README between its two marks."""
     median = statistics.median(ours["wall_s"] / prusa["wall_s"] for prusa, ours in results.values())
-    target = models.ROOT / "docs" / "benchmarks.md"
-    target.parent.mkdir(exist_ok=True)
-    target.write_text(
+    rows = "\n".join(table_row(name, *pair) for name, pair in results.items())
+    table = f"{HEADER}\n{rows}\n\nMedian ratio of wall time: {median:.2f}.\n"
+    (models.ROOT / "docs").mkdir(exist_ok=True)
+    (models.ROOT / "docs" / "benchmarks.md").write_text(
         "# Benchmarks\n\nMade by `scripts/bench --write`; do not edit.\n\n"
         "Both slicers read the same two meshes and the same settings: 0.3 mm layers, 0.4 mm nozzles, 2 perimeters,\n"
         "20 % rectilinear infill, thin walls and gap fill off. They run in turns on the same machine; a figure is the\n"
-        f"median of {rounds} rounds. Plastic is what the part itself takes, by the G-code.\n"
-        f"Machine: {os.cpu_count()} cores, {platform.machine()}; PrusaSlicer 2.5.0 as in Debian 12.\n\n"
-        f"{HEADER}\n{rows}\n\nMedian ratio of wall time: {median:.2f}.\n")
+        f"median of {rounds} rounds. Two figures: PrusaSlicer / cleancolor. Plastic is what the part itself takes, by\n"
+        "the G-code; the difference is against PrusaSlicer's.\n"
+        f"Machine: {os.cpu_count()} cores, {platform.machine()}; PrusaSlicer 2.5.0 as in Debian 12.\n\n{table}")
+    readme = models.ROOT / "README.md"
+    begin, end = "<!-- scripts/bench --write -->\n", "<!-- end -->"
+    text = readme.read_text()
+    before, rest = text.split(begin)
+    readme.write_text(before + begin + table + rest[rest.index(end):])
 
 
 def main():
