@@ -56,7 +56,7 @@ Polygons simplified(const Polygons& region, double tolerance_mm);
 /// An open line likewise; both ends stay.
 std::vector<Vec2> simplified(const std::vector<Vec2>& line, double tolerance_mm);
 
-/// Connected pieces, largest outlines first left in Clipper's order; islands inside holes come as islands of their own.
+/// Connected pieces in the order of their outlines in region; an island inside a hole is an island of its own.
 std::vector<Island> islands(const Polygons& region);
 Polygons polygons(const Island& island);
 
