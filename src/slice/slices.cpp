@@ -51,7 +51,8 @@ void make_disjoint(std::vector<Polygons>& regions, double height_mm, OverlapRule
 Polygons all_of(const std::vector<Polygons>& regions) {
   Polygons all;
   for (const Polygons& r : regions) all.insert(all.end(), r.begin(), r.end());
-  return regions.size() == 1 ? all : united(all);
+  const auto filled = std::count_if(regions.begin(), regions.end(), [](const Polygons& r) { return !r.empty(); });
+  return filled < 2 ? all : united(all);
 }
 
 /// Grows or shrinks the outside of the layer; borders between two extruders stay where they are.
@@ -69,12 +70,11 @@ void compensate(std::vector<Polygons>& regions, double delta_mm) {
 }
 
 /// Counts the pieces of a layer that touch nothing of the layer below.
-void find_mid_air(const std::vector<Polygons>& layer, const std::vector<Polygons>& below, Finding& finding) {
-  Polygons support;
-  for (const Polygons& region : below) support.insert(support.end(), region.begin(), region.end());
-  for (const Island& island : islands(all_of(layer))) {
-    const bool stands = std::any_of(island.outline.begin(), island.outline.end(), [&](const Point& p) { return contains(support, p); });
-    if (stands || !intersection(polygons(island), support).empty()) continue;
+void find_mid_air(const Polygons& layer, const Polygons& below, Finding& finding) {
+  for (const Island& island : islands(layer)) {
+    const auto on_below = [&](const Point& p) { return contains(below, p); };
+    if (std::any_of(island.outline.begin(), island.outline.end(), on_below)) continue;
+    if (!intersection(polygons(island), below).empty()) continue;
     if (finding.mid_air++ == 0) finding.mid_air_at_mm = to_mm(island.outline.front());
   }
 }
@@ -135,7 +135,7 @@ Polygons cross_section(const Mesh& mesh, double z_mm) { return united(PlaneCuts(
 Slices slices(std::span<const Part> parts, const SliceOptions& options, const Progress& progress) {
   double top_mm = 0;
   for (const Part& part : parts) top_mm = std::max(top_mm, bounds(part.mesh).max.z);
-  Slices result{slabs(top_mm, options.first_layer_height_mm, options.layer_height_mm), {}};
+  Slices result{slabs(top_mm, options.first_layer_height_mm, options.layer_height_mm), {}, {}};
   if (result.slabs.empty())
     throw Error(fmt::format("the model is {:.3f} mm high, less than half the first layer ({} mm): nothing would be "
                             "printed; scale it (files in metres or inches?) or choose a smaller first_layer_height",
@@ -148,6 +148,7 @@ Slices slices(std::span<const Part> parts, const SliceOptions& options, const Pr
                [&](int i) { cuts[std::size_t(i)] = std::make_unique<PlaneCuts>(parts[std::size_t(i)].mesh, planes); });
 
   result.regions.resize(planes.size());
+  result.outlines.resize(planes.size());
   std::vector<Finding> findings(planes.size());
   parallel_for(int(planes.size()), options.threads, [&](int index) {
     const auto k = std::size_t(index);
@@ -162,11 +163,12 @@ Slices slices(std::span<const Part> parts, const SliceOptions& options, const Pr
     make_disjoint(regions, result.slabs[k].height_mm, options.overlap, findings[k]);
     compensate(regions, options.xy_size_compensation_mm);
     if (k == 0) compensate(regions, -options.elefant_foot_compensation_mm);
+    result.outlines[k] = all_of(regions);
     result.regions[k] = std::move(regions);
   });
   parallel_for(int(planes.size()) - 1, options.threads, [&](int below) {
     const auto k = std::size_t(below) + 1;
-    find_mid_air(result.regions[k], result.regions[k - 1], findings[k]);
+    find_mid_air(result.outlines[k], result.outlines[k - 1], findings[k]);
   });
   report(parts, result, findings, options.overlap, progress);
   return result;

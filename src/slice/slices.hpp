@@ -39,6 +39,7 @@ Polygons cross_section(const Mesh& mesh, double z_mm);
 struct Slices {
   std::vector<Slab> slabs;
   std::vector<std::vector<Polygons>> regions;  // [layer][extruder], disjoint within a layer
+  std::vector<Polygons> outlines;              // [layer], all extruders together
 };
 
 enum class OverlapRule { refuse, first, last };

@@ -42,6 +42,13 @@ Path started_at(Path path, std::size_t first) {
   return path;
 }
 
+Path started_on(Path path, std::size_t segment, Vec2 p) {
+  path.points.insert(path.points.begin() + std::ptrdiff_t(segment) + 1, p);
+  for (Stretch& s : path.stretches)
+    if (s.first_segment > segment) ++s.first_segment;
+  return started_at(std::move(path), segment + 1);
+}
+
 Path reversed(Path path) {
   // A closed path keeps its first point: 0 1 2 3 becomes 0 3 2 1.
   std::reverse(path.points.begin() + (path.closed ? 1 : 0), path.points.end());

@@ -44,12 +44,17 @@ struct Stretch {
   Road road;
 };
 
+/// Path::depth of all that is not a perimeter.
+inline constexpr int fill_depth = 1000;
+
 /// One continuous extrusion of one nozzle.
 ///
 /// points are in model coordinates (where the plastic lies), mm; a closed path does not repeat its first point.
 /// stretches: at least one, ascending, the first from segment 0; a loop that overhangs in places stays one path.
 struct Path {
   int extruder = 0;  // 0-based
+  int island = 0;    // which connected piece of its extruder's region in this layer; -1: none (skirt, prime)
+  int depth = fill_depth;  // of a perimeter: 0 along the outline, 1 the next one inside, ...
   bool closed = false;
   std::vector<Vec2> points;
   std::vector<Stretch> stretches;
@@ -77,6 +82,10 @@ double volume_mm3(const Path& path);
 
 /// The same closed path begun at points[first]; stretches turn with it.  Requires: closed; first < points.size().
 Path started_at(Path path, std::size_t first);
+
+/// The same closed path with one more point, on segment `segment`; begun there.
+/// Requires: closed; p on or near the segment.
+Path started_on(Path path, std::size_t segment, Vec2 p);
 
 /// The same path walked the other way.
 Path reversed(Path path);

@@ -53,8 +53,10 @@ Nest nest(const Polygons& region, const Roads& roads, const PerimeterOptions& op
   return result;
 }
 
-Path loop_path(const Ring& ring, const Road& road, const PerimeterOptions& options) {
+Path loop_path(const Ring& ring, int depth, const Roads& roads, const PerimeterOptions& options) {
+  const Road& road = depth == 0 ? roads.external_perimeter : roads.perimeter;
   Path path;
+  path.depth = depth;
   path.closed = true;
   path.points = to_mm(ring);
   path.stretches = {{0, road}};
@@ -132,7 +134,7 @@ Shell perimeters(const Island& island, const Polygons& overhang, const Roads& ro
   Shell shell;
   for (std::size_t depth = loops.loops.size(); depth-- > 0;)
     for (const Ring& ring : loops.loops[depth]) {
-      Path path = loop_path(ring, depth == 0 ? roads.external_perimeter : roads.perimeter, options);
+      Path path = loop_path(ring, int(depth), roads, options);
       mark_overhangs(path, overhang, roads.overhang_perimeter);
       shell.paths.push_back(std::move(path));
     }
@@ -142,8 +144,10 @@ Shell perimeters(const Island& island, const Polygons& overhang, const Roads& ro
   if (options.thin_walls && !loops.thin.empty()) {
     // From a quarter of the nozzle on, a wall can be printed at all; up to two roads, loops do not fit.
     const double most = 2 * roads.external_perimeter.width_mm;
-    for (Path& path : medial_roads(loops.thin, roads.external_perimeter, options.nozzle_diameter_mm / 4, most))
+    for (Path& path : medial_roads(loops.thin, roads.external_perimeter, options.nozzle_diameter_mm / 4, most)) {
+      path.depth = 0;
       shell.paths.push_back(std::move(path));
+    }
   }
   if (options.gap_fill && !loops.gaps.empty()) {
     const double least = 0.2 * roads.perimeter.width_mm * (1 - tolerated_overlap);

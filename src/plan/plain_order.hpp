@@ -1,0 +1,28 @@
+// plan/plain_order.hpp
+//
+// Plain order: what slicers do without colour protection. The nearest path next, straight travel.
+//
+// A layer begins with the extruder that ended the layer below, so that there is about one tool change a layer. Each
+// extruder prints island by island: perimeters from the inside out (or as Path::depth and external_first say), then
+// fills. It is the baseline that the planner of clean colour is measured against.
+#pragma once
+
+#include "model/config.hpp"
+#include "plan/seam.hpp"
+#include "toolpath/path.hpp"
+
+namespace cleancolor {
+
+/// What a layer hands on to the next.
+struct OrderState {
+  int extruder = 0;  // that printed last
+  Vec2 at;           // where it ended
+  SeamMemory seams;
+};
+
+/// The layer's paths in printing order: closed ones begun at their seam, open ones turned round where that is nearer.
+/// Paths of no island (Path::island == -1) come first for each extruder, in the order given.
+/// Cost: quadratic in the number of paths of an island and of islands.
+void order(Layer& layer, OrderState& state, const Config& config);
+
+}  // namespace cleancolor
