@@ -1,0 +1,39 @@
+#include "gcode/clock.hpp"
+
+namespace cleancolor {
+
+MotionLimits motion_limits(const Config& c) {
+  const auto axes = [](Vec3 v, double e) { return Axes{v.x, v.y, v.z, e}; };
+  return {.max_speed_mm_s = axes(c.machine_max_feedrate_mm_s, c.machine_max_feedrate_e_mm_s),
+          .max_acceleration_mm_s2 = axes(c.machine_max_acceleration_mm_s2, c.machine_max_acceleration_e_mm_s2),
+          .max_jerk_mm_s = axes(c.machine_max_jerk_mm_s, c.machine_max_jerk_e_mm_s),
+          .extruding_mm_s2 = c.machine_max_acceleration_extruding_mm_s2,
+          .travel_mm_s2 = c.machine_max_acceleration_travel_mm_s2,
+          .retracting_mm_s2 = c.machine_max_acceleration_retracting_mm_s2};
+}
+
+Clock::Mark Clock::mark() {
+  const Mark mark = times_s_.size() + waiting_.size();
+  if (waiting_.empty() && done_ == pushed_) {
+    times_s_.push_back(total_s_);
+  } else {
+    waiting_.push_back(pushed_);
+  }
+  return mark;
+}
+
+void Clock::stop() {
+  timer_.stop();
+}
+
+void Clock::done(double s) {
+  total_s_ += s;
+  ++done_;
+  std::size_t reached = 0;
+  while (reached < waiting_.size() && waiting_[reached] == done_) ++reached;
+  if (reached == 0) return;
+  times_s_.insert(times_s_.end(), reached, total_s_);
+  waiting_.erase(waiting_.begin(), waiting_.begin() + std::ptrdiff_t(reached));
+}
+
+}  // namespace cleancolor
