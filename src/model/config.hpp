@@ -162,7 +162,7 @@ struct Config {
   double skirt_distance_mm = 6;
   int skirt_height_layers = 1;
   double min_skirt_length_mm = 0;
-  BrimType brim_type = BrimType::no_brim;
+  BrimType brim_type = BrimType::outer_only;       // printed where brim_width is positive
   double brim_width_mm = 0;
   double brim_separation_mm = 0;
   double prime_line_length_mm = 40;  // where no skirt primes the nozzles; 0: none

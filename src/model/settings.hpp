@@ -1,0 +1,32 @@
+// model/settings.hpp
+//
+// Settings: what a person chose -> the Config to print with.
+//
+//   defaults < printer < materials < print < loaded file < single options
+//
+// Where no material or print profile is named, the printer's own choice is taken; but not beside a loaded file, which
+// knows its own. Where neither a printer nor a file is named, it is the printer "generic", which has one nozzle.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "model/config.hpp"
+
+namespace cleancolor {
+
+struct Settings {
+  std::string printer = {};                 // name or file; "": see above
+  std::vector<std::string> materials = {};  // one per extruder; the last also holds for all that follow
+  std::string print = {};
+  std::filesystem::path load = {};    // PrusaSlicer's or Slic3r's configuration, or G-code that contains one
+  std::vector<std::string> set = {};  // "layer_height=0.2"
+};
+
+/// Throws Error where a profile, file or option cannot be used, or where the options do not go together. Warns of what
+/// a loaded file contains and we ignore.
+Config config_of(const Settings& settings, const Progress& progress = {});
+
+}  // namespace cleancolor
