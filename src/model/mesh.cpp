@@ -1,6 +1,24 @@
 #include "model/mesh.hpp"
 
+#include <algorithm>
+
 namespace cleancolor {
+
+Mesh submesh(const std::vector<Vec3>& vertices, std::span<const Triangle> triangles) {
+  std::vector<std::uint32_t> used;
+  used.reserve(triangles.size() * 3);
+  for (const Triangle& t : triangles) used.insert(used.end(), t.begin(), t.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+
+  Mesh mesh;
+  mesh.vertices.reserve(used.size());
+  for (const std::uint32_t i : used) mesh.vertices.push_back(vertices[i]);
+  mesh.triangles.assign(triangles.begin(), triangles.end());
+  for (Triangle& t : mesh.triangles)
+    for (std::uint32_t& i : t) i = std::uint32_t(std::lower_bound(used.begin(), used.end(), i) - used.begin());
+  return mesh;
+}
 
 Box<Vec3> bounds(const Mesh& mesh) {
   Box<Vec3> box;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,15 @@ struct Mesh {
 };
 
 struct Part {
-  std::string name;                   // "globe.3mf: ocean", for messages
+  std::string name;  // "globe.3mf: ocean", for messages
   Mesh mesh;
-  std::optional<int> extruder;        // 0-based, where the file or the command line says
-  std::optional<std::uint32_t> rgb;   // 0xRRGGBB, where the file says
+  std::optional<int> extruder;       // 0-based, where the file or the command line says
+  std::optional<std::uint32_t> rgb;  // 0xRRGGBB, where the file says
+  std::string material;              // where the file names a material without a colour; equal names, equal material
 };
+
+/// These triangles with only the vertices that they use, in the vertices' order.  Cost: n log n in the triangles.
+Mesh submesh(const std::vector<Vec3>& vertices, std::span<const Triangle> triangles);
 
 Box<Vec3> bounds(const Mesh& mesh);
 
