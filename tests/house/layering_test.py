@@ -12,7 +12,8 @@ TABLE = """
 | `base` | nothing | |
 | `path` | `base` | |
 | `plan` | `base`, `path/path.hpp` | |
-| `cli` | `plan` | |
+| `pipeline` | `plan`, `path` | |
+| `cli` | `plan`, `pipeline` | |
 """
 
 
@@ -54,6 +55,10 @@ class Layering(unittest.TestCase):
 
     def test_the_command_line_is_checked_too(self):
         self.assertEqual(len(breaches(cli__main='#include "base/vec.hpp"\n', src__base__vec="")), 1)
+
+    def test_files_directly_in_src_are_the_pipeline(self):
+        self.assertEqual(breaches(cli__main='#include "pipeline.hpp"\n', src__pipeline='#include "picture.hpp"\n',
+                                  src__picture='#include "path/path.hpp"\n', src__path__path=""), [])
 
 
 if __name__ == "__main__":
