@@ -1,0 +1,191 @@
+#include "pipeline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "base/parallel.hpp"
+#include "gcode/writer.hpp"
+#include "model/assign.hpp"
+#include "model/check.hpp"
+#include "model/read.hpp"
+#include "picture.hpp"
+#include "plan/plain_order.hpp"
+#include "slice/slices.hpp"
+#include "toolpath/bed.hpp"
+#include "toolpath/cooling.hpp"
+#include "toolpath/toolpaths.hpp"
+
+namespace cleancolor {
+namespace {
+
+/// How far the first stage runs ahead of the writer, in layers beyond what the skins look at.
+constexpr int layers_ahead = 12;
+
+std::vector<Part> parts_of(const SliceRequest& request, const Progress& progress) {
+  std::vector<std::vector<Part>> files;
+  Assignment assignment{{}, request.extruder_of_rgb, int(request.config.extruders.size())};
+  for (const ModelFile& file : request.files) {
+    progress.advance("reading", double(files.size()) / double(request.files.size()));
+    files.push_back(read_model(file.path, progress));
+    assignment.extruder_of_file.push_back(file.extruder);
+  }
+  assign_extruders(files, assignment);
+  std::vector<Part> parts;
+  for (std::vector<Part>& file : files)
+    for (Part& part : file) {
+      part.mesh = checked(std::move(part.mesh), part.name, progress);
+      parts.push_back(std::move(part));
+    }
+  place(parts, request.config, request.placement, progress);
+  return parts;
+}
+
+SliceOptions slice_options(const SliceRequest& request) {
+  const Config& config = request.config;
+  return {.extruders = int(config.extruders.size()),
+          .first_layer_height_mm = config.first_layer_height_mm,
+          .layer_height_mm = config.layer_height_mm,
+          .resolution_mm = config.resolution_mm,
+          .xy_size_compensation_mm = config.xy_size_compensation_mm,
+          .elefant_foot_compensation_mm = config.elefant_foot_compensation_mm,
+          .overlap = request.overlap,
+          .threads = thread_count(request.threads)};
+}
+
+/// The layers in which each extruder prints.
+std::vector<std::optional<LayerRange>> extruder_use(const Slices& slices) {
+  std::vector<std::optional<LayerRange>> use(slices.regions.front().size());
+  for (std::size_t k = 0; k < slices.regions.size(); ++k)
+    for (std::size_t e = 0; e < use.size(); ++e) {
+      if (slices.regions[k][e].empty()) continue;
+      if (!use[e]) use[e] = LayerRange{int(k), int(k)};
+      use[e]->last = int(k);
+    }
+  return use;
+}
+
+/// The layers of one print on their way from regions to G-code; each stage owns its slot of each layer.
+class Print {
+ public:
+  Print(const SliceRequest& request, const Slices& slices, PrintInfo info, Sink sink, const Progress& progress)
+      : config_(request.config), slices_(slices), info_(std::move(info)), sink_(std::move(sink)), progress_(progress),
+        shells_(slices.slabs.size()), areas_(slices.slabs.size()), paths_(slices.slabs.size()) {
+    std::vector<int> used;
+    for (std::size_t e = 0; e < info_.use.size(); ++e)
+      if (info_.use[e]) used.push_back(int(e));
+    bed_ = bed_paths(slices, used, config_, progress);
+    // All nozzles that print at all are primed in the first layer.
+    for (const Path& path : bed_.front())
+      if (path.island < 0) info_.use[std::size_t(path.extruder)]->first = 0;
+    state_.extruder = used.front();
+  }
+
+  PrintFigures run(int threads) {
+    const int reach = skin_reach(config_);
+    cleancolor::run({.count = int(slices_.slabs.size()),
+                     .window = 2 * reach + layers_ahead,
+                     .stages = {{0, [&](int k) { slot(shells_, k) = layer_shells(slices_, k, config_); }},
+                                {reach, [&](int k) { slot(areas_, k) = layer_areas(shells_, k, config_); }},
+                                {1, [&](int k) { make_paths(k); }}},
+                     .consume = [&](int k) { write(k); }},
+                    threads);
+    warn_of_losses();
+    return writer_->finish();
+  }
+
+ private:
+  template <class T>
+  static T& slot(std::vector<T>& slots, int k) { return slots[std::size_t(k)]; }
+
+  void make_paths(int k) {
+    const LayerAreas* below = k > 0 ? &slot(areas_, k - 1) : nullptr;
+    slot(paths_, k) = layer_paths(slices_, slot(shells_, k), below, slot(areas_, k), k, config_);
+  }
+
+  void write(int k) {
+    if (progress_.interrupted()) throw Error("interrupted");
+    const Slab& slab = slices_.slabs[std::size_t(k)];
+    Layer layer{.index = k, .print_z_mm = slab.print_z_mm, .height_mm = slab.height_mm, .paths = {}, .fan_by_extruder = {}};
+    if (k < int(bed_.size())) layer.paths = std::move(slot(bed_, k));
+    std::move(slot(paths_, k).begin(), slot(paths_, k).end(), std::back_inserter(layer.paths));
+    order(layer, state_, config_);
+    cool(layer, config_);
+    if (!writer_) begin(layer);
+    writer_->layer(layer);
+    for (const ExtruderShell& shell : slot(shells_, k)) {
+      lost_area_mm2_ += shell.lost_area_mm2;
+      lost_layers_ += shell.lost_area_mm2 > 0;
+    }
+    release(k);
+    progress_.advance("slicing", double(k + 1) / double(slices_.slabs.size()));
+  }
+
+  /// Frees what no later layer reads.
+  void release(int k) {
+    slot(paths_, k) = {};
+    const int reach = skin_reach(config_);
+    if (k > reach) slot(shells_, k - reach - 1) = {};
+    if (k > 0) slot(areas_, k - 1) = {};
+  }
+
+  void begin(const Layer& first) {
+    if (!first.paths.empty()) info_.initial_extruder = first.paths.front().extruder;
+    for (const Path& path : first.paths)
+      for (const Vec2 p : path.points) info_.first_layer_box_mm.add(p);
+    writer_ = std::make_unique<GcodeWriter>(config_, std::move(info_), std::move(sink_));
+  }
+
+  void warn_of_losses() const {
+    if (lost_layers_ == 0) return;
+    progress_.warn(fmt::format("walls thinner than a road in {} layers, {:.1f} mm2 in all, are not printed{}", lost_layers_,
+                               lost_area_mm2_, config_.thin_walls ? "" : "; thin_walls = 1 prints most of them"));
+  }
+
+  const Config& config_;
+  const Slices& slices_;
+  PrintInfo info_;
+  Sink sink_;
+  const Progress& progress_;
+  std::vector<LayerShells> shells_;
+  std::vector<LayerAreas> areas_;
+  std::vector<std::vector<Path>> paths_;
+  std::vector<std::vector<Path>> bed_;
+  OrderState state_;
+  std::unique_ptr<GcodeWriter> writer_;
+  double lost_area_mm2_ = 0;
+  int lost_layers_ = 0;
+};
+
+Summary summary_of(const PrintFigures& figures) {
+  Summary summary{figures.layers, figures.tool_changes, figures.time_s, {}};
+  for (const FilamentUse& f : figures.extruders) summary.extruders.push_back({f.length_mm, f.weight_g, f.cost});
+  return summary;
+}
+
+}  // namespace
+
+Summary slice(const SliceRequest& request, const Progress& progress) {
+  const std::vector<Part> parts = parts_of(request, progress);
+  if (!request.preview.empty()) write_file(request.preview, picture(parts, request.config, 1024, 768));
+
+  progress.advance("slicing", 0);
+  const Slices layers = slices(parts, slice_options(request), progress);
+  PrintInfo info{.name = request.files.front().path.stem().string(),
+                 .layer_count = int(layers.slabs.size()),
+                 .max_z_mm = layers.slabs.back().print_z_mm,
+                 .initial_extruder = 0,
+                 .use = extruder_use(layers),
+                 .first_layer_box_mm = {},
+                 .thumbnails = thumbnails(parts, request.config)};
+
+  OutputFile file(request.output);
+  Print print(request, layers, std::move(info), to_file(file), progress);
+  const PrintFigures figures = print.run(thread_count(request.threads));
+  file.commit();
+  return summary_of(figures);
+}
+
+}  // namespace cleancolor

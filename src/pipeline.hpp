@@ -12,6 +12,7 @@
 #include "base/progress.hpp"
 #include "model/config.hpp"
 #include "model/placement.hpp"
+#include "slice/slices.hpp"
 
 namespace cleancolor {
 
@@ -19,9 +20,6 @@ struct ModelFile {
   std::filesystem::path path;
   std::optional<int> extruder;  // 0-based; of all its parts
 };
-
-/// What is done where two parts claim the same place.
-enum class Overlap { refuse, first, last };
 
 struct SliceRequest {
   std::vector<ModelFile> files;                // at least one

@@ -1,5 +1,7 @@
 #include "gcode/clock.hpp"
 
+#include <cmath>
+
 namespace cleancolor {
 
 MotionLimits motion_limits(const Config& c) {
@@ -10,6 +12,14 @@ MotionLimits motion_limits(const Config& c) {
           .extruding_mm_s2 = c.machine_max_acceleration_extruding_mm_s2,
           .travel_mm_s2 = c.machine_max_acceleration_travel_mm_s2,
           .retracting_mm_s2 = c.machine_max_acceleration_retracting_mm_s2};
+}
+
+void Clock::push(const Move& move) {
+  const Axes& d = move.delta_mm;
+  const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  nominal_s_ += (length > 0 ? length : std::abs(d[3])) / move.speed_mm_s;
+  ++pushed_;
+  timer_.push(move);
 }
 
 Clock::Mark Clock::mark() {

@@ -23,14 +23,12 @@ class Clock {
   Clock(const Clock&) = delete;  // the timer calls back
   Clock& operator=(const Clock&) = delete;
 
-  void push(const Move& move) {
-    ++pushed_;
-    timer_.push(move);
-  }
+  void push(const Move& move);
 
   Mark mark();
   void stop();
 
+  double nominal_s() const { return nominal_s_; }  // of all moves so far, at full speed
   double total_s() const { return total_s_; }
   double time_s(Mark mark) const { return times_s_[mark]; }  // Requires: stopped
 
@@ -38,6 +36,7 @@ class Clock {
   void done(double s);
 
   MotionTimer timer_;
+  double nominal_s_ = 0;
   double total_s_ = 0;
   std::size_t pushed_ = 0;
   std::size_t done_ = 0;

@@ -174,10 +174,11 @@ void Machine::shorten_count() {
   if (absolute_in_common_ && filament().count_e5 > long_count_e5) zero_count();
 }
 
-void Machine::select(int tool, bool written_already) {
+void Machine::select(int tool, std::string_view code, bool word_in_code) {
   const bool by_firmware = config_.offsets_in == OffsetsIn::firmware;
   if (counting_ && absolute_in_common_) zero_count();
-  if (!written_already) {
+  put_custom(code);
+  if (!word_in_code) {
     const auto word = by_firmware ? words_.tool_change_standing : words_.tool_change;
     text_.line(fmt::format(fmt::runtime(word), fmt::arg("tool", tool)));
   }
@@ -221,6 +222,11 @@ void Machine::set_bed(int temperature_c, bool wait) {
 }
 
 void Machine::custom(std::string_view gcode) {
+  put_custom(gcode);
+  if (!gcode.empty() && counting_ && absolute_in_common_) zero_count();  // whatever it did to the count
+}
+
+void Machine::put_custom(std::string_view gcode) {
   if (gcode.empty()) return;
   text_.put(gcode);
   if (gcode.back() != '\n') text_.put("\n");
@@ -231,7 +237,6 @@ void Machine::custom(std::string_view gcode) {
   };
   if (mentions(words_.fan_on) || mentions(words_.fan_off)) fan_ = -1;
   if (mentions(words_.acceleration)) acceleration_mm_s2_ = 0;
-  if (counting_ && absolute_in_common_) zero_count();  // whatever it did to the count
 }
 
 double Machine::filament_mm(int tool) const {

@@ -56,8 +56,8 @@ class Machine {
   /// Requires: not lifted, not retracted.
   void extrude(Vec2 to_mm, const Feed& feed);
 
-  /// Makes the tool active; the word for it is written unless written_already.
-  void select(int tool, bool written_already);
+  /// Makes the tool active: the user's code for the change, and the firmware's word unless the code has it already.
+  void select(int tool, std::string_view code, bool word_in_code);
 
   /// M82 or M83, and counts from 0.
   void start_counting();
@@ -97,6 +97,7 @@ class Machine {
   void move_z(std::int64_t to_um);
   void move_filament(std::int64_t delta_e5, double speed_mm_s);
   void zero_count();
+  void put_custom(std::string_view gcode);
   void clear_position() { known_ = z_known_ = false, feed_ = -1; }
 
   const Config& config_;

@@ -110,7 +110,7 @@ void GcodeWriter::Print::start(const Layer& first) {
   text.line("G21 ; set units to millimeters");
   text.line("G90 ; use absolute coordinates");
   const bool only_one = config.extruders.size() == 1;
-  machine.select(info.initial_extruder, only_one || selects(code, info.initial_extruder));
+  machine.select(info.initial_extruder, "", only_one || selects(code, info.initial_extruder));
   machine.start_counting();
   custom(initial.start_filament_gcode, "start_filament_gcode");
 }
@@ -120,12 +120,12 @@ void GcodeWriter::Print::progress_line() {
   const std::size_t width = progress_text(words(config.gcode_flavor), 100, 99999).size();
   progress.push_back({clock.mark(), text.offset()});
   text.line(std::string(width, ' '));
-  last_progress_s = clock.total_s();
+  last_progress_s = clock.nominal_s();
 }
 
 void GcodeWriter::Print::progress_mark() {
   constexpr double every_s = 30;
-  if (clock.total_s() - last_progress_s >= every_s) progress_line();
+  if (clock.nominal_s() - last_progress_s >= every_s) progress_line();
 }
 
 void GcodeWriter::Print::fill_in_progress() {

@@ -171,8 +171,7 @@ void GcodeWriter::Print::change_tool(const Layer& layer, std::size_t first_path)
   set_tools(before, next);
   placeholders.set("toolchange_z", layer.print_z_mm);
   const std::string code = placeholders.filled_in(config.toolchange_gcode, "toolchange_gcode");
-  machine.custom(code);
-  machine.select(next, selects(code, next));
+  machine.select(next, code, selects(code, next));
   placeholders.set_current_extruder(next);
   custom(config.extruders[std::size_t(next)].start_filament_gcode, "start_filament_gcode");
   if (config.heater_off_after_last_use && finished(before, layer, first_path)) machine.set_nozzle(before, 0, false);

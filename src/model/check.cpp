@@ -54,6 +54,7 @@ class Check {
                        counted(faults_.crowded, "edge is", "edges are")));
     face_outward();
     require_volume();
+    for (const std::string& warning : warnings_) progress_.warn(warning);
     return std::move(mesh_);
   }
 
@@ -143,7 +144,8 @@ class Check {
     if (!(volume_mm3(mesh_) > 1e-6 * area_mm2)) refuse("it is flat: it encloses no volume");
   }
 
-  void warn(const std::string& what) const { progress_.warn(fmt::format("{}: {}", name_, what)); }
+  /// Kept back until the mesh is accepted: what was mended is of no interest in a mesh that is refused.
+  void warn(const std::string& what) { warnings_.push_back(fmt::format("{}: {}", name_, what)); }
 
   [[noreturn]] void refuse(const std::string& what) const {
     throw Error(fmt::format("{}: {}; repair the mesh in the program that made it", name_, what));
@@ -152,6 +154,7 @@ class Check {
   Mesh mesh_;
   std::vector<EdgeUse> uses_;
   EdgeFaults faults_;
+  std::vector<std::string> warnings_;
   const std::string& name_;
   const Progress& progress_;
   const CheckLimits& limits_;

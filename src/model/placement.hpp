@@ -14,9 +14,9 @@
 namespace cleancolor {
 
 struct Placement {
-  bool keep = false;               // --no-center: X and Y as in the file
-  std::optional<Vec2> center_mm;   // --center: where the middle of the parts' common box goes
-  double rotate_deg = 0;           // about +Z, counterclockwise seen from above, before centring
+  bool keep = false;              // --no-center: X and Y as in the file
+  std::optional<Vec2> center_mm;  // --center: where the middle of the parts' common box goes
+  double rotate_deg = 0;          // about +Z, counterclockwise seen from above, before centring
   double scale = 1;
 };
 

@@ -21,7 +21,8 @@ namespace {
 
 std::string file_bytes(const std::filesystem::path& path, const std::string& name) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw Error(fmt::format("{}: is a folder; name a model file", name));
+  if (std::filesystem::is_directory(path, error))
+    throw Error(fmt::format("{}: this is a folder; name a model file", name));
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) throw Error(fmt::format("{}: cannot be opened; check the name and the permissions", path.string()));
   const auto size = file.tellg();
@@ -87,13 +88,13 @@ std::vector<Part> read_bytes(std::string bytes, const std::string& name, const M
   if (bytes.empty()) throw Error(fmt::format("{}: the file is empty; export the model again", name));
   if (is_zip(bytes)) return read_archive(bytes, name, progress);
   if (const std::string_view kind = foreign_kind(bytes); !kind.empty())
-    throw Error(fmt::format("{}: is {}, not a model; give an STL, OBJ, PLY, AMF or 3MF file", name, kind));
+    throw Error(fmt::format("{}: this is {}, not a model; give an STL, OBJ, PLY, AMF or 3MF file", name, kind));
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return {read_ply(bytes, name, progress)};
   if (is_binary_stl(bytes) || extension == ".stl") return {read_stl(bytes, name, progress)};
   if (is_xml(bytes)) return read_amf(std::move(bytes), name, progress);
   if (extension == ".obj") return read_obj(bytes, name, colours);
   if (extension == ".3mf")
-    throw Error(fmt::format("{}: is no zip archive, as a 3MF file must be; export or download it again", name));
+    throw Error(fmt::format("{}: this is no zip archive, as a 3MF file must be; export or download it again", name));
   if (extension == ".ply") return {read_ply(bytes, name, progress)};
   if (extension == ".amf") return read_amf(std::move(bytes), name, progress);
   if (is_keyword(Scanner(std::string_view(bytes).substr(0, 1000)).word(), "solid"))

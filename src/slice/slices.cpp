@@ -29,7 +29,7 @@ struct Finding {
 };
 
 /// Gives every place to one extruder only.
-void make_disjoint(std::vector<Polygons>& regions, double height_mm, OverlapRule rule, Finding& finding) {
+void make_disjoint(std::vector<Polygons>& regions, double height_mm, Overlap rule, Finding& finding) {
   for (std::size_t i = 0; i < regions.size(); ++i)
     for (std::size_t j = i + 1; j < regions.size(); ++j) {
       const Polygons both = intersection(regions[i], regions[j]);
@@ -42,7 +42,7 @@ void make_disjoint(std::vector<Polygons>& regions, double height_mm, OverlapRule
         finding.wide_second = int(j);
       }
       if (!wide) finding.mended_overlap_mm3 += area * height_mm;
-      const bool last_wins = wide && rule == OverlapRule::last;
+      const bool last_wins = wide && rule == Overlap::last;
       Polygons& loser = regions[last_wins ? i : j];
       loser = difference(loser, both);
     }
@@ -87,7 +87,7 @@ std::string names_of(std::span<const Part> parts, int extruder) {
   return names;
 }
 
-void report(std::span<const Part> parts, const Slices& slices, const std::vector<Finding>& findings, OverlapRule rule,
+void report(std::span<const Part> parts, const Slices& slices, const std::vector<Finding>& findings, Overlap rule,
             const Progress& progress) {
   const auto worst = std::max_element(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
     return a.wide_overlap_mm2 < b.wide_overlap_mm2;
@@ -98,9 +98,9 @@ void report(std::span<const Part> parts, const Slices& slices, const std::vector
                     names_of(parts, worst->wide_first), worst->wide_first + 1, names_of(parts, worst->wide_second),
                     worst->wide_second + 1, worst->wide_overlap_mm2,
                     slices.slabs[std::size_t(worst - findings.begin())].slice_z_mm());
-    if (rule == OverlapRule::refuse)
+    if (rule == Overlap::refuse)
       throw Error(where + "; cut the parts apart in the modeller, or say which one has the place: --overlap first or last");
-    progress.warn(fmt::format("{}: given to the {}", where, rule == OverlapRule::first ? "first" : "last"));
+    progress.warn(fmt::format("{}: given to the {}", where, rule == Overlap::first ? "first" : "last"));
   }
   double mended = 0;
   for (const Finding& f : findings) mended += f.mended_overlap_mm3;

@@ -42,7 +42,8 @@ struct Slices {
   std::vector<Polygons> outlines;              // [layer], all extruders together
 };
 
-enum class OverlapRule { refuse, first, last };
+/// What is done where parts of different extruders claim the same place.
+enum class Overlap { refuse, first, last };
 
 struct SliceOptions {
   int extruders = 1;
@@ -51,7 +52,7 @@ struct SliceOptions {
   double resolution_mm = 0.02;
   double xy_size_compensation_mm = 0;         // > 0 grows; not across a border between two extruders
   double elefant_foot_compensation_mm = 0;    // the first layer shrinks by this, not across such a border
-  OverlapRule overlap = OverlapRule::refuse;  // where parts of different extruders overlap by more than 0.05 mm
+  Overlap overlap = Overlap::refuse;  // where parts of different extruders overlap by more than 0.05 mm
   int threads = 1;
 };
 

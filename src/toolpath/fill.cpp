@@ -11,8 +11,6 @@ namespace {
 
 using Rings = std::vector<std::vector<Vec2>>;
 
-// Lines reach this share of their spacing over the border of the region, to bond with what lies beyond.
-constexpr double overlap_share = 0.3;
 // A line shorter than this share of its spacing is a blob, not a line.
 constexpr double shortest_share = 0.5;
 
@@ -178,7 +176,7 @@ std::vector<Path> concentric(const Polygons& region, const Fill& fill, const Roa
 }  // namespace
 
 std::vector<Path> filled(const Polygons& region, const Fill& fill, const Road& road) {
-  const Polygons inner = offset(region, -(0.5 - overlap_share) * fill.spacing_mm);
+  const Polygons inner = offset(region, -fill.spacing_mm / 2);
   std::vector<Path> result;
   const auto add = [&](std::vector<Path> paths) {
     std::move(paths.begin(), paths.end(), std::back_inserter(result));

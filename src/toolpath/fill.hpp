@@ -22,8 +22,7 @@ struct Fill {
 
 /// Lines that cover the region.
 ///
-/// Lines end where a road of this spacing still overlaps the border's neighbour a little (0.3 of the spacing). At
-/// density 1 the lines of each island are spread evenly over its width; below, they lie at the same places in every
+/// Roads touch the border of the region with their outer edges. At density 1 the lines of each island are spread evenly over its width; below, they lie at the same places in every
 /// layer. grid takes half the density in each of two directions.
 /// Cost: region points x lines that each edge crosses; gyroid and concentric one or more Clipper operations.
 std::vector<Path> filled(const Polygons& region, const Fill& fill, const Road& road);

@@ -38,15 +38,13 @@ Nest nest(const Polygons& region, const Roads& roads, const PerimeterOptions& op
     const double distance = i == 0 ? outer_width / 2 : i == 1 ? (outer_spacing + inner_spacing) / 2 : inner_spacing;
     const double room = (i == 0 ? outer_spacing : inner_spacing) * (1 - tolerated_overlap);
     Polygons loops;
-    if (i == 0 && !options.thin_walls) {
-      loops = offset(last, -distance);
-    } else {
-      loops = shrunk_where_room(last, distance, room);
-      if (i == 0)
-        result.thin = difference(region, offset(loops, distance + hair_mm));
-      else if (options.gap_fill)
-        append(result.gaps, difference(offset(last, -distance / 2), offset(loops, distance / 2 + hair_mm)));
-    }
+    // Without thin walls a loop is laid wherever its line fits at all, even if it comes to lie on its own other side:
+    // rather too much plastic in a narrow wall than a hole in it.
+    loops = options.thin_walls ? shrunk_where_room(last, distance, room) : offset(last, -distance);
+    if (i == 0 && options.thin_walls)
+      result.thin = difference(region, offset(loops, distance + hair_mm));
+    else if (i > 0 && options.gap_fill)
+      append(result.gaps, difference(offset(last, -distance / 2), offset(loops, distance / 2 + hair_mm)));
     last = loops;
     if (!loops.empty()) result.loops.push_back(std::move(loops));
   }

@@ -7,14 +7,16 @@ namespace {
 
 // How far a face reaches under its surroundings.
 constexpr double hold_mm = 3;
+// Half the width of what is left over from two borders that should be one.
+constexpr double sliver_mm = 0.01;
 
 void append(Polygons& to, const Polygons& from) { to.insert(to.end(), from.begin(), from.end()); }
 
-/// Strips too narrow for a few lines are widened, so that their lines end on something solid.
+/// Strips narrower than a few lines are widened, so that their lines end on something solid.
 Polygons widened(const Polygons& solid, const Polygons& fill, double spacing_mm) {
   const Polygons narrow = difference(solid, opened(solid, 3 * spacing_mm));
   if (narrow.empty()) return solid;
-  Polygons all = intersection(offset(opened(narrow, 0.1 * spacing_mm), 3 * spacing_mm), fill);
+  Polygons all = intersection(offset(narrow, 3 * spacing_mm), fill);
   append(all, solid);
   return united(all);
 }
@@ -23,15 +25,19 @@ Polygons widened(const Polygons& solid, const Polygons& fill, double spacing_mm)
 
 Faces faces(const Polygons& region, const Polygons& fill, const Polygons& above, const Polygons& below, bool on_bed,
             double line_mm) {
-  const auto face = [&](const Polygons& cover) {
-    const Polygons open = opened(difference(region, cover), line_mm / 20);
-    const Polygons seen = intersection(open, fill);
+  const auto open = [&](const Polygons& cover) { return opened(difference(region, cover), line_mm / 20); };
+  const auto held = [&](const Polygons& face) {
+    const Polygons seen = intersection(face, fill);
     return seen.empty() ? seen : intersection(offset(seen, hold_mm), fill);
   };
   Faces result;
-  result.top = face(above);
-  result.bottom = on_bed ? fill : face(below);
   result.on_bed = on_bed;
+  result.top_cover = open(above);
+  result.top = held(result.top_cover);
+  append(result.top_cover, result.top);
+  result.bottom_cover = on_bed ? region : open(below);
+  result.bottom = on_bed ? fill : held(result.bottom_cover);
+  if (!on_bed) append(result.bottom_cover, result.bottom);
   return result;
 }
 
@@ -46,8 +52,8 @@ FillAreas fill_areas(const Polygons& fill, int layer, int first, std::span<const
   // What lies at most n - 1 layers under a top or over a bottom is solid too.
   Polygons inside;
   for (int k = first; k < first + int(all_faces.size()); ++k) {
-    if (k > layer && k - layer < options.top_layers) append(inside, all_faces[std::size_t(k - first)]->top);
-    if (k < layer && layer - k < options.bottom_layers) append(inside, all_faces[std::size_t(k - first)]->bottom);
+    if (k > layer && k - layer < options.top_layers) append(inside, all_faces[std::size_t(k - first)]->top_cover);
+    if (k < layer && layer - k < options.bottom_layers) append(inside, all_faces[std::size_t(k - first)]->bottom_cover);
   }
   Polygons seen = areas.top;
   append(seen, areas.bottom);
@@ -58,8 +64,8 @@ FillAreas fill_areas(const Polygons& fill, int layer, int first, std::span<const
     return areas;
   }
   if (!inside.empty()) {
-    areas.solid = intersection(united(inside), rest);
-    areas.solid = intersection(widened(opened(areas.solid, options.solid_spacing_mm / 2), fill, options.solid_spacing_mm), rest);
+    areas.solid = opened(intersection(united(inside), rest), sliver_mm);
+    areas.solid = widened(areas.solid, rest, options.solid_spacing_mm);
   }
   areas.sparse = areas.solid.empty() ? rest : difference(rest, areas.solid);
   if (options.solid_below_area_mm2 <= 0) return areas;

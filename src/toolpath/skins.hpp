@@ -14,11 +14,14 @@
 
 namespace cleancolor {
 
-/// Open faces of one extruder in one layer, within its region to fill and grown 3 mm under the perimeters' neighbours,
-/// so that their lines have something to hold on to.
+/// Open faces of one extruder in one layer.
+///
+/// top, bottom: within the region to fill, grown by 3 mm so that their lines have something to hold on to. top_cover,
+/// bottom_cover: these and the faces among the perimeters; what lies right under or over them must be solid, or slopes
+/// would be left with holes between the perimeters of one layer and those of the next. Rings may overlap there.
 struct Faces {
-  Polygons top;
-  Polygons bottom;
+  Polygons top, bottom;
+  Polygons top_cover, bottom_cover;
   bool on_bed = false;  // the bottom rests on the bed: solid, not a bridge
 };
 

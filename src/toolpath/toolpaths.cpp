@@ -167,8 +167,8 @@ std::vector<Path> layer_paths(const Slices& slices, LayerShells& shells, const L
     fill.bridge(area.bridge);
     fill.solid(area.bottom, config.bottom_fill_pattern, r.solid_infill);
     fill.solid(area.top, config.top_fill_pattern, r.top_solid_infill);
-    // Solid over sparse infill hangs between its lines.
-    const Polygons hanging = opened(intersection(area.solid, sparse_below), spacing_mm(r.bridge_infill) / 2);
+    // Solid over sparse infill hangs between its lines; a narrow strip has its neighbours to hold on to.
+    const Polygons hanging = opened(intersection(area.solid, sparse_below), 3 * r.bridge_infill.width_mm);
     fill.solid(hanging, FillPattern::rectilinear, r.bridge_infill);
     fill.solid(difference(area.solid, hanging), FillPattern::rectilinear, r.solid_infill);
     if (config.fill_density > 0) fill.sparse(area.sparse);
