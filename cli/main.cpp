@@ -1,1 +1,54 @@
-int main() {}
+// The program: the command line in, one call, one place where trouble ends.
+
+#include <unistd.h>
+
+#include <exception>
+#include <iostream>
+
+#include "base/error.hpp"
+#include "command_line.hpp"
+#include "interrupt.hpp"
+#include "profiles.hpp"
+#include "slice.hpp"
+
+namespace cleancolor {
+namespace {
+
+void run(const Command& command) {
+  if (const auto* slice = std::get_if<SliceCommand>(&command)) {
+    run(*slice, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
+  } else if (const auto* profiles = std::get_if<ProfilesCommand>(&command)) {
+    std::cout << text_of(*profiles);
+  } else if (const auto* options = std::get_if<OptionsCommand>(&command)) {
+    std::cout << text_of(*options);
+  } else {
+    std::cout << std::get<TextCommand>(command).text;
+  }
+  if (!std::cout.flush()) throw SystemError("standard output cannot be written");
+}
+
+int fail(int code, const char* message) {
+  std::cerr << "cleancolor: " << message << std::endl;
+  return code;
+}
+
+}  // namespace
+}  // namespace cleancolor
+
+int main(int argc, char** argv) {
+  using namespace cleancolor;
+  watch_interrupts();
+  try {
+    run(parse_command_line({argv + 1, argv + argc}));
+    return exit_done;
+  } catch (const SystemError& e) {
+    return fail(exit_system, e.what());
+  } catch (const Error& e) {
+    if (interrupted()) return fail(exit_interrupted, "interrupted; no file was written");
+    return fail(exit_wrong_input, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(exit_system, "out of memory");
+  } catch (const std::exception& e) {  // of the standard library: files and threads
+    return fail(exit_system, e.what());
+  }
+}

@@ -148,14 +148,17 @@ bool is_file(const std::string& name) {
   return name.ends_with(".toml") || name.find('/') != name.npos;
 }
 
-Profile read(OptionGroup group, std::string_view text, const std::string& file, int depth) {
-  toml::table table;
+// The one place where toml++ speaks by exceptions.
+toml::table parsed(std::string_view text, const std::string& file) {
   try {
-    table = toml::parse(text, std::string_view(file));
-  } catch (const toml::parse_error& e) {  // the one place where toml++ speaks by exceptions
+    return toml::parse(text, std::string_view(file));
+  } catch (const toml::parse_error& e) {
     throw Error(fmt::format("{}:{}: {}", file, e.source().begin.line, e.description()));
   }
+}
 
+Profile read(OptionGroup group, std::string_view text, const std::string& file, int depth) {
+  const toml::table table = parsed(text, file);
   Profile profile;
   if (const toml::node* node = table.get("inherits")) {
     std::string parent = string_of(*node, "inherits", file);
@@ -199,6 +202,19 @@ Profile find(OptionGroup group, const std::string& name_or_file, const std::stri
 
 Profile find_profile(OptionGroup group, const std::string& name_or_file) {
   return find(group, name_or_file, "", 0);
+}
+
+std::optional<OptionGroup> profile_group(const std::string& name_or_file) {
+  if (!is_file(name_or_file)) {
+    const auto found = std::ranges::find(builtin_profiles(), name_or_file, &BuiltInProfile::name);
+    return found == builtin_profiles().end() ? std::nullopt : std::optional(found->group);
+  }
+  const toml::table table = parsed(text_of_file(name_or_file), name_or_file);
+  for (const auto& [key, node] : table) {
+    if (const Option* option = find_option(key)) return option->group;
+  }
+  const auto inherited = table["inherits"].value<std::string>();
+  return inherited && !is_file(*inherited) ? profile_group(*inherited) : std::nullopt;
 }
 
 Profile read_profile(OptionGroup group, std::string_view toml, const std::string& file) {

@@ -13,6 +13,7 @@
 // such as "50%"; points are [x, y]. Built-in profiles are the files of profiles/, part of the program itself.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -50,6 +51,10 @@ std::span<const BuiltInProfile> builtin_profiles();
 ///
 /// Throws Error for an unknown name (and lists the known ones), and as read_profile does.
 Profile find_profile(OptionGroup group, const std::string& name_or_file);
+
+/// The kind of the profile that find_profile would find: of a built-in one by its name, of a file by its first option,
+/// or else by what it inherits. Nothing where there is no built-in profile of this name, or a file has no option.
+std::optional<OptionGroup> profile_group(const std::string& name_or_file);
 
 /// Reads the text of a profile. file: its path, for messages and to find what it inherits.
 ///

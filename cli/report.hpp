@@ -1,0 +1,22 @@
+// cli/report.hpp
+//
+// The summary of a print, for people and for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline.hpp"
+
+namespace cleancolor {
+
+/// Layers, tool changes, time, and one row for each extruder that was used.
+std::string summary_table(const Summary& summary, const SliceRequest& request);
+
+/// One JSON object and a new line; its fields are documented in `cleancolor slice --help`.
+std::string summary_json(const Summary& summary, const SliceRequest& request, const std::vector<std::string>& warnings);
+
+/// "1 h 02 min", "3 min 20 s", "45 s".
+std::string duration_text(double seconds);
+
+}  // namespace cleancolor
