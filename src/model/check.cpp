@@ -63,6 +63,9 @@ class Check {
     if (mesh_.triangles.empty()) refuse("the mesh has no triangles");
     for (const Vec3& p : mesh_.vertices)
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) refuse("a vertex is not finite");
+    for (const Vec3& p : mesh_.vertices)
+      if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > limits_.farthest_mm)
+        refuse(fmt::format("a vertex lies more than {} km from the origin; check its unit", limits_.farthest_mm / 1e6));
   }
 
   void take(Mesh mesh) {

@@ -20,6 +20,7 @@ namespace cleancolor {
 
 /// Ways to mend a mesh; defaults are safe.
 struct CheckLimits {
+  double farthest_mm = 1e7;         // vertices farther away than this are refused
   double weld_mm = 1e-4;            // open edges this near to each other are joined
   double small_hole_mm = 2;         // holes up to this size are closed whatever their shape
   double flat_hole_share = 0.01;    // larger ones where they are flat within this share of their size

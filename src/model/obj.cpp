@@ -62,10 +62,10 @@ class ObjReader {
       else
         corners_.push_back(index(word));
     }
-    scan_.rest_of_line();
     if (corners_.size() < 3) fail(fmt::format("a face of {} corners; it needs three at least", corners_.size()));
     triangles_ += corners_.size() - 2;
     if (triangles_ > max_triangles) fail(fmt::format("more than {} triangles; simplify the mesh", max_triangles));
+    scan_.rest_of_line();  // a comment
     add_face();
   }
 

@@ -69,17 +69,17 @@ std::string size_text(Vec3 size) {
   return fmt::format("{:.1f} x {:.1f} x {:.1f} mm", size.x, size.y, size.z);
 }
 
-/// Throws where the box of all parts is larger than the box of what the nozzles reach.
-void require_size(const Box<Vec3>& box, const Box<Vec2>& area, double max_height_mm, const std::set<int>& extruders,
-                  std::span<const Part> parts) {
+/// Throws where the box of all parts is larger than the print volume.
+void require_size(const Box<Vec3>& box, const Config& config, std::span<const Part> parts) {
   const Vec3 size = box.size();
-  const Vec2 room = area.empty() ? Vec2{} : area.size();
-  if (size.x <= room.x + rounding_mm && size.y <= room.y + rounding_mm && size.z <= max_height_mm + rounding_mm) return;
+  const Vec2 bed = bounds_mm(polygon(config.bed_shape_mm)).size();
+  const Vec3 room{bed.x, bed.y, config.max_print_height_mm};
+  if (size.x <= room.x + rounding_mm && size.y <= room.y + rounding_mm && size.z <= room.z + rounding_mm) return;
   throw Error(
-      fmt::format("{}: {} too large, {}, for the print volume that extruder {} can reach, {}; use --scale or "
-                  "--rotate, or choose another printer",
-                  parts.front().name, parts.size() == 1 ? "is" : "and the other parts together are", size_text(size),
-                  listed(extruders), size_text({room.x, room.y, max_height_mm})));
+      fmt::format("{}{} too large: {}, but the print volume is {}; use --scale or --rotate, or choose another "
+                  "printer",
+                  parts.front().name, parts.size() == 1 ? ":" : ": it and the other parts together are",
+                  size_text(size), size_text(room)));
 }
 
 bool lies_in(const Part& part, const Polygons& area) {
@@ -127,22 +127,31 @@ void warn_of_moves(const Box<Vec3>& box, const Box<Vec2>& area, const std::strin
                               name, box.center().x, box.center().y));
 }
 
+/// Whether some other box carries this one, or lies in front of its underside.
+bool is_carried(const Box<Vec3>& box, const std::vector<Box<Vec3>>& boxes) {
+  constexpr double gap_mm = 0.05;
+  if (box.min.z <= gap_mm) return true;
+  return std::any_of(boxes.begin(), boxes.end(), [&](const Box<Vec3>& other) {
+    return other.min.z < box.min.z && other.max.z >= box.min.z - gap_mm &&
+           !apart(box.min.x, box.max.x, other.min.x - gap_mm, other.max.x + gap_mm) &&
+           !apart(box.min.y, box.max.y, other.min.y - gap_mm, other.max.y + gap_mm);
+  });
+}
+
 /// Parts that start above the bed with nothing below them, as far as boxes tell.
 void warn_of_floating(std::span<const Part> parts, const Progress& progress) {
-  constexpr double gap_mm = 0.05;
   std::vector<Box<Vec3>> boxes;
   for (const Part& part : parts) boxes.push_back(bounds(part.mesh));
+  std::size_t first = parts.size(), count = 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (boxes[i].min.z <= gap_mm) continue;
-    const bool is_carried = std::any_of(boxes.begin(), boxes.end(), [&](const Box<Vec3>& other) {
-      return other.min.z < boxes[i].min.z && other.max.z >= boxes[i].min.z - gap_mm &&
-             !apart(boxes[i].min.x, boxes[i].max.x, other.min.x - gap_mm, other.max.x + gap_mm) &&
-             !apart(boxes[i].min.y, boxes[i].max.y, other.min.y - gap_mm, other.max.y + gap_mm);
-    });
-    if (!is_carried)
-      progress.warn(
-          fmt::format("{}: floats {:.2f} mm above the bed with nothing below it", parts[i].name, boxes[i].min.z));
+    if (is_carried(boxes[i], boxes)) continue;
+    first = std::min(first, i);
+    ++count;
   }
+  if (count == 0) return;
+  const std::string others = count == 1 ? "" : fmt::format(", and so do {} other parts", count - 1);
+  progress.warn(fmt::format("{}: floats {:.2f} mm above the bed with nothing below it{}", parts[first].name,
+                            boxes[first].min.z, others));
 }
 
 }  // namespace
@@ -167,7 +176,7 @@ void place(std::span<Part> parts, const Config& config, const Placement& placeme
                     listed(extruders)));
   const Box<Vec2> area = bounds_mm(common);
   const Box<Vec3> box = common_box(parts);
-  require_size(box, bounds_mm(polygon(config.bed_shape_mm)), config.max_print_height_mm, extruders, parts);
+  require_size(box, config, parts);
 
   const bool centred = !placement.keep && !placement.center_mm;
   warn_of_moves(box, area, parts.front().name, centred, progress);
