@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace cleancolor {
 namespace {
@@ -44,30 +45,19 @@ double MotionTimer::start_speed(const Planned& first) const {
   return first.cruise_mm_s * share;
 }
 
-void MotionTimer::push(const Move& move) {
-  assert(move.speed_mm_s > 0);
+MotionTimer::Planned MotionTimer::planned(const Move& move) const {
   const Axes& d = move.delta_mm;
   const double carriage = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   const bool only_filament = carriage < nothing_mm;
+  const bool extruding = d[3] > 0 && (d[0] != 0 || d[1] != 0);
   Planned p;
   p.length_mm = only_filament ? std::abs(d[3]) : carriage;
-  p.empty_before = empty_after_;
-  if (p.length_mm < nothing_mm) {
-    if (moves_.empty()) {
-      duration_(0);
-    } else {
-      ++empty_after_;
-    }
-    return;
-  }
-  empty_after_ = 0;
-
-  const bool extruding = d[3] > 0 && (d[0] != 0 || d[1] != 0);
   p.cruise_mm_s = move.speed_mm_s;
   p.acceleration_mm_s2 = only_filament ? limits_.retracting_mm_s2
                          : extruding   ? limits_.extruding_mm_s2
                                        : limits_.travel_mm_s2;
   if (move.acceleration_mm_s2 > 0) p.acceleration_mm_s2 = std::min(p.acceleration_mm_s2, move.acceleration_mm_s2);
+  if (p.length_mm < nothing_mm) return p;
   for (std::size_t k = 0; k < 4; ++k) {
     p.direction[k] = d[k] / p.length_mm;
     const double share = std::abs(p.direction[k]);
@@ -75,7 +65,22 @@ void MotionTimer::push(const Move& move) {
     p.cruise_mm_s = std::min(p.cruise_mm_s, limits_.max_speed_mm_s[k] / share);
     p.acceleration_mm_s2 = std::min(p.acceleration_mm_s2, limits_.max_acceleration_mm_s2[k] / share);
   }
+  return p;
+}
 
+void MotionTimer::push(const Move& move) {
+  assert(move.speed_mm_s > 0);
+  Planned p = planned(move);
+  if (p.length_mm < nothing_mm) {
+    // Takes no time, but its turn comes after the moves before it.
+    if (moves_.empty()) {
+      duration_(0);
+    } else {
+      ++empty_after_;
+    }
+    return;
+  }
+  p.empty_before = std::exchange(empty_after_, 0);
   p.junction_mm_s = moves_.empty() ? start_speed(p) : junction_speed(moves_.back(), p);
   if (moves_.empty()) speed_mm_s_ = p.junction_mm_s;
   moves_.push_back(p);

@@ -60,6 +60,7 @@ class MotionTimer {
     double entry_mm_s = 0;         // the highest from which there is also room to brake, as far as is known
     std::size_t empty_before = 0;  // moves of no length between the planned one before and this
   };
+  Planned planned(const Move& move) const;
   double junction_speed(const Planned& before, const Planned& after) const;
   double start_speed(const Planned& first) const;
   void emit(std::size_t count, double exit_mm_s);

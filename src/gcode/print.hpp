@@ -32,8 +32,8 @@ class GcodeWriter::Print {
   void travel(const Path& path);
   Machine::Feed begin_road(const Layer& layer, const Extruder& extruder, const Road& road);
   void change_tool(const Layer& layer, std::size_t first_path);
-  bool finished(int extruder, const Layer& layer, std::size_t from_path) const;
-  void later_temperatures(const Layer& layer);
+  void turn_off_finished(const Layer& layer, std::size_t from_path);
+  void later_temperatures();
   void custom(std::string_view code, std::string_view option_name);
 
   // print_ends.cpp
@@ -43,6 +43,7 @@ class GcodeWriter::Print {
   void set_print_placeholders(const Layer& first);
   void set_tools(int previous, int next);
   bool selects(std::string_view code, int tool) const;
+  void first_tool(std::string_view start_code);
   void progress_line();
   void progress_mark();
   void fill_in_progress();
@@ -66,6 +67,7 @@ class GcodeWriter::Print {
   double last_progress_s = 0;
 
   bool started = false;
+  std::vector<bool> heated;  // of each extruder: on until told otherwise
   int layers_written = 0;
   int tool_changes = 0;
   Clock::Mark first_layer_end = 0;

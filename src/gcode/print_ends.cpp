@@ -59,7 +59,7 @@ void GcodeWriter::Print::set_tools(int previous, int next) {
 void GcodeWriter::Print::set_print_placeholders(const Layer& first) {
   placeholders.set("layer_num", first.index);
   placeholders.set("layer_z", first.print_z_mm);
-  placeholders.set("toolchange_z", first.print_z_mm);
+  placeholders.set("toolchange_z", 0);
   placeholders.set("max_layer_z", info.max_z_mm);
   placeholders.set("total_layer_count", info.layer_count);
   placeholders.set("initial_extruder", info.initial_extruder);
@@ -109,10 +109,21 @@ void GcodeWriter::Print::start(const Layer& first) {
 
   text.line("G21 ; set units to millimeters");
   text.line("G90 ; use absolute coordinates");
-  const bool only_one = config.extruders.size() == 1;
-  machine.select(info.initial_extruder, "", only_one || selects(code, info.initial_extruder));
+  first_tool(code);
   machine.start_counting();
   custom(initial.start_filament_gcode, "start_filament_gcode");
+}
+
+void GcodeWriter::Print::first_tool(std::string_view start_code) {
+  const int tool = info.initial_extruder;
+  const bool only_one = config.extruders.size() == 1;
+  if (only_one || selects(start_code, tool)) {
+    machine.select(tool, "", true);
+  } else {
+    // As in PrusaSlicer the tool change template serves here, too, with previous_extruder = -1.
+    const std::string code = placeholders.filled_in(config.toolchange_gcode, "toolchange_gcode");
+    machine.select(tool, code, selects(code, tool));
+  }
 }
 
 void GcodeWriter::Print::progress_line() {

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
@@ -60,6 +61,7 @@ GcodeWriter::Print::Print(const Config& c, PrintInfo i, Sink sink)
       machine(config, text, clock),
       placeholders(config) {
   assert(info.use.size() == config.extruders.size());
+  for (const auto& use : info.use) heated.push_back(use.has_value());
   // A name must not end its comment and become G-code.
   std::replace_if(info.name.begin(), info.name.end(), [](char k) { return k >= 0 && k < ' '; }, '_');
   const int tools = int(config.extruders.size());
@@ -80,7 +82,8 @@ void GcodeWriter::Print::layer(const Layer& layer) {
   text.line(fmt::format(";HEIGHT:{}", number_text(layer.height_mm)));
   height_mm = layer.height_mm;
   custom(config.before_layer_gcode, "before_layer_gcode");
-  if (layers_written == 1) later_temperatures(layer);
+  turn_off_finished(layer, 0);
+  if (layers_written == 1) later_temperatures();
   if (!layer.paths.empty()) {
     const Extruder& e = config.extruders[std::size_t(machine.tool())];
     if (e.retract_layer_change || layers_written == 0) draw_back();
@@ -174,23 +177,24 @@ void GcodeWriter::Print::change_tool(const Layer& layer, std::size_t first_path)
   machine.select(next, code, selects(code, next));
   placeholders.set_current_extruder(next);
   custom(config.extruders[std::size_t(next)].start_filament_gcode, "start_filament_gcode");
-  if (config.heater_off_after_last_use && finished(before, layer, first_path)) machine.set_nozzle(before, 0, false);
+  turn_off_finished(layer, first_path);
 }
 
-bool GcodeWriter::Print::finished(int extruder, const Layer& layer, std::size_t from_path) const {
-  const auto& use = info.use[std::size_t(extruder)];
-  if (!use || layer.index < use->last) return false;
-  for (std::size_t i = from_path; i < layer.paths.size(); ++i)
-    if (layer.paths[i].extruder == extruder) return false;
-  return true;
+void GcodeWriter::Print::turn_off_finished(const Layer& layer, std::size_t from_path) {
+  if (!config.heater_off_after_last_use) return;
+  for (std::size_t t = 0; t < heated.size(); ++t) {
+    if (!heated[t] || int(t) == machine.tool() || layer.index < info.use[t]->last) continue;
+    const auto rest = std::span(layer.paths).subspan(from_path);
+    if (std::any_of(rest.begin(), rest.end(), [&](const Path& p) { return p.extruder == int(t); })) continue;
+    machine.set_nozzle(int(t), 0, false);
+    heated[t] = false;
+  }
 }
 
-void GcodeWriter::Print::later_temperatures(const Layer& layer) {
+void GcodeWriter::Print::later_temperatures() {
   for (std::size_t t = 0; t < config.extruders.size(); ++t) {
     const Extruder& e = config.extruders[t];
-    const bool off = !info.use[t] || (info.use[t]->last < layer.index && int(t) != machine.tool());
-    if (off || e.temperature_c == e.first_layer_temperature_c) continue;
-    machine.set_nozzle(int(t), e.temperature_c, false);
+    if (heated[t] && e.temperature_c != e.first_layer_temperature_c) machine.set_nozzle(int(t), e.temperature_c, false);
   }
   const Extruder& first = config.extruders[std::size_t(info.initial_extruder)];
   if (first.bed_temperature_c != first.first_layer_bed_temperature_c) machine.set_bed(first.bed_temperature_c, false);

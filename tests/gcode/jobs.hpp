@@ -62,7 +62,11 @@ inline Path zigzag(int extruder, Vec2 at, double side, double spacing) {
 inline std::vector<Layer> two_cubes(int layers, bool stacked) {
   std::vector<Layer> result;
   for (int i = 0; i < layers; ++i) {
-    Layer layer{.index = i, .print_z_mm = 0.3 * (i + 1), .height_mm = 0.3, .paths = {}, .fan_by_extruder = {0, 0}};
+    Layer layer{.index = i,
+                .print_z_mm = 0.3 * (i + 1),
+                .height_mm = 0.3,
+                .paths = {},
+                .fan_by_extruder = {0, i > 0 ? 0.5 : 0.0}};
     const auto add = [&](int extruder, Vec2 at) {
       layer.paths.push_back(square(extruder, at + Vec2{1, 1}, 18, Role::perimeter));
       layer.paths.push_back(square(extruder, at, 20));

