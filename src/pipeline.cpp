@@ -81,6 +81,7 @@ class Print {
     for (const Path& path : bed_.front())
       if (path.island < 0) info_.use[std::size_t(path.extruder)]->first = 0;
     state_.extruder = used.front();
+    coverage_.resize(info_.use.size());
   }
 
   PrintFigures run(int threads) {
@@ -93,7 +94,10 @@ class Print {
                      .consume = [&](int k) { write(k); }},
                     threads);
     warn_of_losses();
-    return writer_->finish();
+    PrintFigures figures = writer_->finish();
+    const bool nothing = std::all_of(coverage_.begin(), coverage_.end(), [](const Coverage& c) { return c.lost_mm2 >= c.all_mm2; });
+    if (nothing) throw Error("every wall is too thin to print: nothing would come out; is the model's scale right?");
+    return figures;
   }
 
  private:
@@ -115,10 +119,7 @@ class Print {
     cool(layer, config_);
     if (!writer_) begin(layer);
     writer_->layer(layer);
-    for (const ExtruderShell& shell : slot(shells_, k)) {
-      lost_area_mm2_ += shell.lost_area_mm2;
-      lost_layers_ += shell.lost_area_mm2 > 0;
-    }
+    for (std::size_t e = 0; e < coverage_.size(); ++e) coverage_[e] += slot(shells_, k)[e].coverage;
     release(k);
     progress_.advance("slicing", double(k + 1) / double(slices_.slabs.size()));
   }
@@ -138,10 +139,20 @@ class Print {
     writer_ = std::make_unique<GcodeWriter>(config_, std::move(info_), std::move(sink_));
   }
 
+  /// What is too thin to print is worth a word where it is more than the tip of a cone.
   void warn_of_losses() const {
-    if (lost_layers_ == 0) return;
-    progress_.warn(fmt::format("walls thinner than a road in {} layers, {:.1f} mm2 in all, are not printed{}", lost_layers_,
-                               lost_area_mm2_, config_.thin_walls ? "" : "; thin_walls = 1 prints most of them"));
+    for (std::size_t e = 0; e < coverage_.size(); ++e) {
+      const Coverage& c = coverage_[e];
+      const double noticed = 0.01 * c.all_mm2;
+      if (c.lost_mm2 > noticed)
+        progress_.warn(fmt::format("{:.0f} % of what extruder {} should print is too thin for a road and left out{}",
+                                   100 * c.lost_mm2 / c.all_mm2, e + 1,
+                                   config_.thin_walls ? "" : "; thin_walls = 1 prints most of it"));
+      if (c.thin_mm2 > noticed)
+        progress_.warn(fmt::format("{:.0f} % of what extruder {} should print is thinner than its nozzle ({} mm): such "
+                                   "walls come out weak or not at all; make them thicker",
+                                   100 * c.thin_mm2 / c.all_mm2, e + 1, config_.extruders[e].nozzle_diameter_mm));
+    }
   }
 
   const Config& config_;
@@ -155,8 +166,7 @@ class Print {
   std::vector<std::vector<Path>> bed_;
   OrderState state_;
   std::unique_ptr<GcodeWriter> writer_;
-  double lost_area_mm2_ = 0;
-  int lost_layers_ = 0;
+  std::vector<Coverage> coverage_;  // of each extruder, all layers together
 };
 
 Summary summary_of(const PrintFigures& figures) {

@@ -194,18 +194,6 @@ Polygons polygons(const Island& island) {
   return result;
 }
 
-Polygons clipped_lines(const Polygons& lines, const Polygons& region) {
-  if (lines.empty() || region.empty()) return {};
-  ClipperLib::Clipper clipper;
-  clipper.AddPaths(lines, ClipperLib::ptSubject, false);
-  clipper.AddPaths(region, ClipperLib::ptClip, true);
-  ClipperLib::PolyTree tree;
-  clipper.Execute(ClipperLib::ctIntersection, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
-  Polygons result;
-  ClipperLib::OpenPathsFromPolyTree(tree, result);
-  return result;
-}
-
 double area_mm2(const Ring& ring) { return ClipperLib::Area(ring) * mm_per_nm * mm_per_nm; }
 
 double area_mm2(const Polygons& region) {

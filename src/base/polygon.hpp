@@ -60,9 +60,6 @@ std::vector<Vec2> simplified(const std::vector<Vec2>& line, double tolerance_mm)
 std::vector<Island> islands(const Polygons& region);
 Polygons polygons(const Island& island);
 
-/// The parts of open lines inside the region.
-Polygons clipped_lines(const Polygons& lines, const Polygons& region);
-
 double area_mm2(const Ring& ring);          // signed: counterclockwise positive
 double area_mm2(const Polygons& region);
 double length_mm(const Ring& ring);         // closed

@@ -112,6 +112,8 @@ class AmfReader {
         const std::string_view type = metadata(volume, "slic3r.volume_type");
         const bool is_solid = metadata(volume, "slic3r.modifier") != "1" && (type.empty() || type == "ModelPart") &&
                               attribute(volume, "type") != "support";
+        if (parts.size() == max_parts)
+          throw Error(fmt::format("{}: more than {} volumes; simplify the model", where, max_parts));
         if (is_solid)
           parts.push_back(read_volume(object, volume, vertices, where));
         else

@@ -135,14 +135,13 @@ std::optional<Repaired> consistently_wound(Mesh mesh, std::span<const EdgeUse> u
 
 namespace {
 
-/// The rims of the holes, each as a ring of vertices that a cap must follow. An unfinished rim comes without its end.
-struct Rims {
-  std::vector<std::vector<std::uint32_t>> closed;
-  std::vector<std::vector<std::uint32_t>> unfinished;
-};
+using Rim = std::vector<std::uint32_t>;  // vertices, in the sense in which a cap must follow them
 
-Rims rims(std::size_t vertices, std::span<const EdgeUse> uses) {
-  // The cap passes every open side the other way; surplus sides of an edge with many triangles count as open too.
+/// The rims of all holes, each vertex at most once in each.
+///
+/// The open sides together form closed walks, since the three sides of every triangle do: as many of them lead to a
+/// vertex as lead away from it. A walk that comes back to one of its vertices leaves a finished rim behind.
+std::vector<Rim> rims(std::size_t vertices, std::span<const EdgeUse> uses) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> sides;  // from, to, along the cap
   for (std::size_t i = 0, n = 0; i < uses.size(); i += n) {
     n = edge_size(uses, i);
@@ -156,17 +155,20 @@ Rims rims(std::size_t vertices, std::span<const EdgeUse> uses) {
   std::partial_sum(next.begin(), next.end(), next.begin());
   const std::vector<std::uint32_t> end(next.begin() + 1, next.end());
 
-  Rims rims;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const std::uint32_t start = sides[i].first;
-    while (next[start] < end[start]) {
-      std::vector<std::uint32_t> ring;
-      std::uint32_t at = start;
-      do {
-        ring.push_back(at);
-        at = sides[next[at]++].second;
-      } while (at != start && next[at] < end[at]);
-      (at == start && ring.size() >= 3 ? rims.closed : rims.unfinished).push_back(std::move(ring));
+  std::vector<Rim> rims;
+  constexpr std::uint32_t nowhere = UINT32_MAX;
+  std::vector<std::uint32_t> place(vertices, nowhere);  // of each vertex in the walk
+  Rim walk;
+  for (const auto& side : sides) {
+    std::uint32_t at = side.first;
+    while (next[at] < end[at]) {
+      place[at] = std::uint32_t(walk.size());
+      walk.push_back(at);
+      at = sides[next[at]++].second;
+      if (place[at] == nowhere) continue;
+      rims.emplace_back(walk.begin() + place[at], walk.end());
+      walk.resize(place[at]);
+      for (const std::uint32_t v : rims.back()) place[v] = nowhere;
     }
   }
   return rims;
@@ -198,16 +200,15 @@ RimShape shape(const std::vector<Vec3>& corners) {
 }  // namespace
 
 ClosedHoles without_holes(Mesh mesh, std::span<const EdgeUse> uses, const CheckLimits& limits) {
-  const Rims all = rims(mesh.vertices.size(), uses);
   ClosedHoles result;
   std::vector<Vec3> corners;
-  const auto leave_open = [&](const std::vector<std::uint32_t>& rim, double size_mm) {
+  const auto leave_open = [&](const Rim& rim, double size_mm) {
     ++result.open;
     if (size_mm < result.largest_open_mm) return;
     result.largest_open_mm = size_mm;
     result.where_open_mm = mesh.vertices[rim.front()];
   };
-  for (const auto& rim : all.closed) {
+  for (const Rim& rim : rims(mesh.vertices.size(), uses)) {
     corners.clear();
     for (const std::uint32_t i : rim) corners.push_back(mesh.vertices[i]);
     const RimShape rim_shape = shape(corners);
@@ -221,7 +222,6 @@ ClosedHoles without_holes(Mesh mesh, std::span<const EdgeUse> uses, const CheckL
     result.triangles += rim.size() - 2;
     result.largest_mm = std::max(result.largest_mm, rim_shape.size_mm);
   }
-  for (const auto& rim : all.unfinished) leave_open(rim, 0);
   result.mesh = std::move(mesh);
   return result;
 }

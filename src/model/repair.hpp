@@ -38,7 +38,7 @@ struct ClosedHoles {
   std::size_t holes = 0;      // closed
   std::size_t triangles = 0;  // added
   double largest_mm = 0;      // size of the largest hole closed
-  std::size_t open = 0;       // holes that are too large and not flat, or have no clear rim
+  std::size_t open = 0;       // holes that are too large and not flat
   double largest_open_mm = 0;
   Vec3 where_open_mm;  // a point on the rim of one
 };

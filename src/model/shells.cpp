@@ -69,8 +69,8 @@ class Turning {
   }
 
  private:
-  static constexpr std::size_t max_work = 100'000'000;     // triangles looked at: seconds
-  static constexpr std::size_t sampling_work = 1'000'000;  // likewise, for the warning about overlaps
+  static constexpr std::size_t max_work = 100'000'000;   // triangles looked at: seconds
+  static constexpr std::size_t sampling_work = 250'000;  // likewise, for the warning about overlaps
 
   void turn(std::size_t i, std::vector<char>& is_turned) {
     is_turned[i] = 1;

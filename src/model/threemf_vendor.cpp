@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "model/limits.hpp"
 
 namespace cleancolor {
 
@@ -65,6 +66,8 @@ VendorObjects read_vendor_config(const Xml& xml, const std::string& where) {
       } else {
         volume.id = id_attribute(child, "id").value_or(0);
       }
+      if (object.volumes.size() == max_parts)
+        throw Error(fmt::format("{}: object {}: too many volumes; simplify the project", where, *id));
       object.volumes.push_back(std::move(volume));
     }
     objects.insert_or_assign(*id, std::move(object));

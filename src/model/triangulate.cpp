@@ -53,11 +53,12 @@ std::vector<Triangle> triangulated(std::span<const Vec3> corners) {
   std::iota(ring.begin(), ring.end(), 0U);
   std::vector<Triangle> triangles;
   triangles.reserve(corners.size() - 2);
-  if (corners.size() > 3 && corners.size() <= 1000) {
+  if (corners.size() > 3) {
     const std::vector<Vec2> flat = flattened(corners);
-    std::size_t i = 0, tried = 0;
-    while (ring.size() > 3 && tried < ring.size()) {
+    std::size_t i = 0, tried = 0, tests = 0;
+    while (ring.size() > 3 && tried < ring.size() && tests < 500 * corners.size()) {
       const std::size_t n = ring.size();
+      tests += n;
       if (is_ear(flat, ring, i)) {
         triangles.push_back({ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]});
         ring.erase(ring.begin() + std::ptrdiff_t(i));

@@ -13,9 +13,9 @@ namespace cleancolor {
 
 /// corners.size() - 2 triangles over the corners, in their sense of rotation: ears cut off one after another.
 ///
-/// Seen along the mean normal. Where no ear is found (a polygon that crosses itself or has no area) or where there are
-/// more than 1000 corners, the rest becomes a fan: still closed, its overlaps cancel.
-/// Requires: at least three corners.  Cost: quadratic in the corners up to 1000, linear above.
+/// Seen along the mean normal. Where no ear is found (a polygon that crosses itself or has no area), or where looking
+/// for ears takes more than 500 tests of a point for each corner, the rest becomes a fan: still closed, its overlaps
+/// cancel.  Requires: at least three corners.  Cost: quadratic for small polygons, linear for large ones.
 std::vector<Triangle> triangulated(std::span<const Vec3> corners);
 
 }  // namespace cleancolor

@@ -12,16 +12,18 @@ namespace cleancolor {
 
 namespace {
 
-/// No more than this is what pugixml's tree takes: every '<' opens at most an element and a text, every '=' an
-/// attribute.
+/// No more than this is what pugixml's tree takes: a node for each element and each text, and the attributes.
 std::size_t tree_bytes(std::string_view bytes) {
   constexpr std::size_t node_bytes = 64, attribute_bytes = 40;
-  std::size_t nodes = 0, attributes = 0;
-  for (const char c : bytes) {
-    nodes += c == '<' ? 1 : 0;
-    attributes += c == '=' ? 1 : 0;
+  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
+  std::size_t nodes = 0;
+  for (std::size_t i = bytes.find('<'); i != std::string_view::npos; i = bytes.find('<', i + 1)) {
+    if (i + 1 < bytes.size() && bytes[i + 1] != '/') ++nodes;
+    std::size_t before = i;
+    while (before > 0 && is_space(bytes[before - 1])) --before;
+    if (before > 0 && bytes[before - 1] != '>') ++nodes;  // a text
   }
-  return 2 * nodes * node_bytes + attributes * attribute_bytes;
+  return nodes * node_bytes + std::size_t(std::count(bytes.begin(), bytes.end(), '=')) * attribute_bytes;
 }
 
 }  // namespace

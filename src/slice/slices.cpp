@@ -59,7 +59,13 @@ Polygons all_of(const std::vector<Polygons>& regions) {
 void compensate(std::vector<Polygons>& regions, double delta_mm) {
   if (delta_mm == 0) return;
   const Polygons all = all_of(regions);
-  const Polygons target = offset(all, delta_mm);
+  Polygons target = offset(all, delta_mm);
+  if (delta_mm < 0) {
+    // What would be left with less than half its width keeps all of it.
+    const Polygons thin = difference(all, opened(all, -2 * delta_mm));
+    target.insert(target.end(), thin.begin(), thin.end());
+    target = united(target);
+  }
   for (Polygons& region : regions) {
     if (region.empty()) continue;
     if (delta_mm < 0)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/edge_rows.hpp"
 #include "toolpath/roads.hpp"
 
 namespace cleancolor {
@@ -111,7 +112,7 @@ std::vector<Path> prime_lines(const Slices& slices, const Polygons& base, const 
       }
       inset += 2 * road.width_mm;
       fits = fits && within(path, common) &&
-             clipped_lines({{to_nm(path.points[0]), to_nm(path.points[1])}}, keep_out).empty();
+             EdgeRows(keep_out).clipped(path.points).empty();
       paths.push_back(std::move(path));
     }
     if (fits) return paths;

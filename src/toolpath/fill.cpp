@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/edge_rows.hpp"
 #include "toolpath/link.hpp"
 
 namespace cleancolor {
@@ -13,6 +14,10 @@ using Rings = std::vector<std::vector<Vec2>>;
 
 // A line shorter than this share of its spacing is a blob, not a line.
 constexpr double shortest_share = 0.5;
+
+// Infill need not be smooth: what counts is how many moves it takes.
+constexpr double curve_tolerance_mm = 0.03;
+constexpr int steps_a_wave = 24;
 
 Vec2 turned(Vec2 p, double cosine, double sine) { return {p.x * cosine - p.y * sine, p.x * sine + p.y * cosine}; }
 
@@ -107,13 +112,13 @@ std::vector<std::vector<Vec2>> parallel_lines(const Polygons& region, const Fill
 /// The curves in which the gyroid surface of period `period` cuts the plane z, over a box, before clipping.
 ///
 /// sin x cos y + sin y cos z + sin z cos x = 0, solved for y (or x) in closed form: A cos y + B sin y = -C.
-Polygons gyroid_curves(const Box<Vec2>& box, double z_mm, double period_mm) {
+std::vector<std::vector<Vec2>> gyroid_curves(const Box<Vec2>& box, double z_mm, double period_mm) {
   const double k = 2 * std::numbers::pi / period_mm;
   const double sin_z = std::sin(k * z_mm), cos_z = std::cos(k * z_mm);
   const bool along_x = std::abs(cos_z) >= std::abs(sin_z);
   const double from = (along_x ? box.min.x : box.min.y) * k, to = (along_x ? box.max.x : box.max.y) * k;
   const double low = (along_x ? box.min.y : box.min.x) * k, high = (along_x ? box.max.y : box.max.x) * k;
-  const int steps = std::max(2, int(std::ceil((to - from) / (2 * std::numbers::pi / 32))));
+  const int steps = std::max(2, int(std::ceil((to - from) / (2 * std::numbers::pi / steps_a_wave))));
   const auto solution = [&](double t, bool second) {
     const double a = along_x ? std::sin(t) : std::cos(t);
     const double b = along_x ? cos_z : sin_z;
@@ -121,17 +126,24 @@ Polygons gyroid_curves(const Box<Vec2>& box, double z_mm, double period_mm) {
     const double s = std::asin(std::clamp(-c / std::hypot(a, b), -1.0, 1.0));
     return (second ? std::numbers::pi - s : s) - std::atan2(a, b);
   };
-  Polygons curves;
+  std::vector<Vec2> rising, falling;
+  for (int i = 0; i <= steps; ++i) {
+    const double t = from + (to - from) * i / steps;
+    rising.push_back({t, solution(t, false)});
+    falling.push_back({t, solution(t, true)});
+  }
+  rising = simplified(rising, curve_tolerance_mm * k);
+  falling = simplified(falling, curve_tolerance_mm * k);
+  std::vector<std::vector<Vec2>> curves;
   for (const bool second : {false, true}) {
     // Lines a period apart; begin far enough below that the whole wave is covered.
     const int first = int(std::floor((low - 2 * std::numbers::pi) / (2 * std::numbers::pi))) - 1;
     const int last = int(std::ceil((high + 2 * std::numbers::pi) / (2 * std::numbers::pi))) + 1;
     for (int n = first; n <= last; ++n) {
-      Ring curve;
-      for (int i = 0; i <= steps; ++i) {
-        const double t = from + (to - from) * i / steps;
-        const double y = solution(t, second) + 2 * std::numbers::pi * n;
-        curve.push_back(to_nm(along_x ? Vec2{t / k, y / k} : Vec2{y / k, t / k}));
+      std::vector<Vec2> curve;
+      for (const Vec2 p : second ? falling : rising) {
+        const double y = p.y + 2 * std::numbers::pi * n;
+        curve.push_back(along_x ? Vec2{p.x / k, y / k} : Vec2{y / k, p.x / k});
       }
       curves.push_back(std::move(curve));
     }
@@ -142,18 +154,20 @@ Polygons gyroid_curves(const Box<Vec2>& box, double z_mm, double period_mm) {
 std::vector<std::vector<Vec2>> gyroid(const Polygons& region, const Fill& fill) {
   // A plane cuts 2.44 mm of gyroid out of each mm2 per mm of period (surface 3.09 L^2 a cell, times the mean pi/4).
   const double period = 2.44 * fill.spacing_mm / fill.density;
-  Box<Vec2> box = bounds_mm(region);
-  const Polygons clipped = clipped_lines(gyroid_curves(box, fill.z_mm, period), region);
   Rings rings;
   for (const Ring& ring : region) rings.push_back(to_mm(ring));
   const Border border(rings);
+  const EdgeRows edges(rings);
+  const auto place = [&](Vec2 end) {
+    const EdgeRows::Edge* edge = edges.nearest(end, 1e-3);
+    return edge ? border.place(edge->ring, edge->index, end) : Border::Place{};
+  };
   std::vector<BorderLine> lines;
-  for (const Ring& piece : clipped) {
-    std::vector<Vec2> points = to_mm(piece);
-    if (points.size() < 2) continue;
-    const Border::Place first = border.nearest(points.front()), last = border.nearest(points.back());
-    lines.push_back({std::move(points), first, last, 2 * int(lines.size())});
-  }
+  for (const auto& curve : gyroid_curves(bounds_mm(region), fill.z_mm, period))
+    for (auto& points : edges.clipped(curve)) {
+      const Border::Place first = place(points.front()), last = place(points.back());
+      lines.push_back({std::move(points), first, last, 2 * int(lines.size())});
+    }
   return linked(std::move(lines), border, fill.max_link_mm);
 }
 

@@ -1,7 +1,6 @@
 #include "toolpath/link.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -71,20 +70,6 @@ Border::Border(const std::vector<std::vector<Vec2>>& rings) : rings_(rings) {
 Border::Place Border::place(int ring, std::size_t edge, Vec2 on_edge) const {
   const auto r = std::size_t(ring);
   return {ring, along_[r][edge] + distance(rings_[r][edge], on_edge)};
-}
-
-Border::Place Border::nearest(Vec2 p) const {
-  Place best;
-  double best_squared = std::numeric_limits<double>::infinity();
-  for (std::size_t r = 0; r < rings_.size(); ++r)
-    for (std::size_t i = 0; i < rings_[r].size(); ++i) {
-      const Vec2 a = rings_[r][i], d = rings_[r][(i + 1) % rings_[r].size()] - a;
-      const double squared = length_squared(d);
-      const double t = squared > 0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0;
-      const double off = length_squared(a + d * t - p);
-      if (off < best_squared) best_squared = off, best = {int(r), along_[r][i] + t * std::sqrt(squared)};
-    }
-  return best;
 }
 
 std::vector<Vec2> Border::between(int ring, double from_mm, double to_mm) const {

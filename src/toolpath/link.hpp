@@ -26,9 +26,6 @@ class Border {
   /// The place at which a point of edge `edge` (from point `edge` to the next) of the ring lies.
   Place place(int ring, std::size_t edge, Vec2 on_edge) const;
 
-  /// The nearest place; by trying all edges near it.
-  Place nearest(Vec2 p) const;
-
   double perimeter_mm(int ring) const { return along_[std::size_t(ring)].back(); }
 
   /// Corners passed on the way forwards (in the ring's direction) from a to b, both left out.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/edge_rows.hpp"
 #include "toolpath/medial.hpp"
 
 namespace cleancolor {
@@ -73,36 +74,11 @@ Polygons fill_region(const Polygons& region, const Nest& nest, const Roads& road
   return shrunk_where_room(nest.loops.back(), inset, infill_spacing * (1 - tolerated_overlap));
 }
 
-/// Positions along the segment, in (0, 1), where it crosses an edge of the region.
-void crossings(Vec2 a, Vec2 b, const std::vector<std::vector<Vec2>>& region, std::vector<double>& at) {
-  const Vec2 d = b - a;
-  const double min_x = std::min(a.x, b.x), max_x = std::max(a.x, b.x);
-  const double min_y = std::min(a.y, b.y), max_y = std::max(a.y, b.y);
-  for (const auto& ring : region) {
-    Vec2 p = ring.back();
-    for (const Vec2 q : ring) {
-      const Vec2 p0 = p;
-      p = q;
-      if ((p0.x < min_x && q.x < min_x) || (p0.x > max_x && q.x > max_x) || (p0.y < min_y && q.y < min_y) ||
-          (p0.y > max_y && q.y > max_y))
-        continue;
-      const Vec2 e = q - p0;
-      const double denominator = cross(d, e);
-      if (denominator == 0) continue;
-      const double t = cross(p0 - a, e) / denominator;
-      const double u = cross(p0 - a, d) / denominator;
-      if (t > 0 && t < 1 && u >= 0 && u <= 1) at.push_back(t);
-    }
-  }
-  std::sort(at.begin(), at.end());
-}
-
 }  // namespace
 
 void mark_overhangs(Path& loop, const Polygons& overhang, const Road& road) {
   if (overhang.empty()) return;
-  std::vector<std::vector<Vec2>> rings;
-  for (const Ring& ring : overhang) rings.push_back(to_mm(ring));
+  const EdgeRows border(overhang);
 
   // Walk round the loop, cut each segment where it crosses the border, and ask for the middle of each piece.
   const Road plain = loop.road();
@@ -112,12 +88,12 @@ void mark_overhangs(Path& loop, const Polygons& overhang, const Road& road) {
   for (std::size_t i = 0; i < loop.points.size(); ++i) {
     const Vec2 a = loop.points[i], b = loop.points[(i + 1) % loop.points.size()];
     cuts.assign({0.0});
-    crossings(a, b, rings, cuts);
+    border.crossings(a, b, cuts);
     cuts.push_back(1);
     for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
       if ((cuts[c + 1] - cuts[c]) * distance(a, b) < hair_mm && cuts.size() > 2) continue;
       points.push_back(lerp(a, b, cuts[c]));
-      hangs.push_back(contains(overhang, to_nm(lerp(a, b, (cuts[c] + cuts[c + 1]) / 2))));
+      hangs.push_back(border.contains(lerp(a, b, (cuts[c] + cuts[c + 1]) / 2)));
     }
   }
   loop.points = std::move(points);

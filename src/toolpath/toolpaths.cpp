@@ -37,6 +37,17 @@ Polygons overhang(const Slices& slices, int layer, const Polygons& region, doubl
   return difference(region, offset(below, nozzle_mm / 2));
 }
 
+Coverage coverage(const Island& island, const Shell& shell, double nozzle_mm) {
+  Coverage result;
+  result.all_mm2 = area_mm2(polygons(island));
+  const auto thinner = [&](const Path& path) { return path.depth == 0 && !path.closed && path.road().width_mm < nozzle_mm; };
+  if (shell.paths.empty() && shell.fill.empty())
+    result.lost_mm2 = result.all_mm2;
+  else if (shell.fill.empty() && std::all_of(shell.paths.begin(), shell.paths.end(), thinner))
+    result.thin_mm2 = result.all_mm2;
+  return result;
+}
+
 /// Gives each path the island it starts in.
 void name_islands(std::vector<Path>& paths, std::size_t first, const std::vector<Island>& islands) {
   for (std::size_t p = first; p < paths.size(); ++p) {
@@ -115,7 +126,7 @@ LayerShells layer_shells(const Slices& slices, int layer, const Config& config) 
     shell.islands = islands(region);
     for (std::size_t i = 0; i < shell.islands.size(); ++i) {
       Shell made = perimeters(shell.islands[i], hanging, extruder_roads, options);
-      if (made.paths.empty() && made.fill.empty()) shell.lost_area_mm2 += area_mm2(polygons(shell.islands[i]));
+      shell.coverage += coverage(shell.islands[i], made, options.nozzle_diameter_mm);
       for (Path& path : made.paths) {
         path.island = int(i);
         shell.paths.push_back(std::move(path));

@@ -18,13 +18,27 @@
 
 namespace cleancolor {
 
+/// How much of a region perimeters can follow, mm2 of cross-section.
+struct Coverage {
+  double all_mm2 = 0;
+  double lost_mm2 = 0;  // islands too thin for any path
+  double thin_mm2 = 0;  // islands thinner than the nozzle, printed as a single line
+
+  Coverage& operator+=(const Coverage& other) {
+    all_mm2 += other.all_mm2;
+    lost_mm2 += other.lost_mm2;
+    thin_mm2 += other.thin_mm2;
+    return *this;
+  }
+};
+
 /// One extruder in one layer.
 struct ExtruderShell {
   std::vector<Path> paths;       // perimeters, thin walls, gap fill
   std::vector<Island> islands;   // of the extruder's region; Path::island counts them
   Polygons fill;
   Faces faces;
-  double lost_area_mm2 = 0;      // islands too thin for any path
+  Coverage coverage;
 };
 
 using LayerShells = std::vector<ExtruderShell>;  // [extruder]
