@@ -100,6 +100,18 @@ TEST(Check, ClosesFlatHolesOfAnySize) {
   EXPECT_TRUE(warnings.contain("1 hole closed")) << warnings.all();
 }
 
+TEST(Check, ClosesHolesThatMeetInAVertex) {
+  // Two triangles of the bottom gone that touch in its middle: their rims together pass the middle twice.
+  Mesh open = cube;
+  open.triangles.erase(open.triangles.begin(), open.triangles.begin() + 2);
+  open.vertices.push_back({10, 10, 0});
+  open.triangles.push_back({0, 8, 1});
+  open.triangles.push_back({3, 8, 2});
+  const Mesh mesh = checked(open, "cube");
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_DOUBLE_EQ(volume_mm3(mesh), 8000);
+}
+
 TEST(Check, RefusesLargeHolesThatAreNotFlat) {
   Mesh open = cube;  // bottom and front are gone: the rim is bent
   open.triangles.erase(open.triangles.begin() + 4, open.triangles.begin() + 6);

@@ -243,8 +243,8 @@ TEST(ThreeMf, RefusesDamagedArchives) {
 
 TEST(ThreeMf, RefusesXmlWhoseTreeWouldTakeTooMuchMemory) {
   std::string many = "<model>";
-  many.reserve(max_xml_tree_bytes / 32 + 100);
-  while (many.size() < max_xml_tree_bytes / 32 + 50) many += "<a/>";
+  many.reserve(max_xml_tree_bytes / 16 + 100);
+  while (many.size() < max_xml_tree_bytes / 16 + 50) many += "<a/>";
   EXPECT_TRUE(says(reason(package(many + "</model>")), "too large"));
 }
 
