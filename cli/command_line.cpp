@@ -106,6 +106,7 @@ struct SliceTexts {
   CLI::Option* extruder_option = nullptr;
 };
 
+// allow_extra_args(false): an option that may come again takes one word at a time, or it would swallow the files.
 void add_printing(CLI::App& app, Settings& settings) {
   const char* group = "What to print with";
   app.add_option("--printer", settings.printer, "printer: a name from 'cleancolor profiles', or a .toml file")
@@ -114,8 +115,7 @@ void add_printing(CLI::App& app, Settings& settings) {
   app.add_option("--material", settings.materials, "material, once for each extruder; the last one holds for the rest")
       ->type_name("NAME|FILE.toml")
       ->group(group)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   app.add_option("--print", settings.print, "print settings")->type_name("NAME|FILE.toml")->group(group);
   app.add_option("--load", settings.load, "configuration of PrusaSlicer or Slic3r: an .ini, or G-code that ends in one")
       ->type_name("FILE")
@@ -123,8 +123,7 @@ void add_printing(CLI::App& app, Settings& settings) {
   app.add_option("--set", settings.set, "one option, such as layer_height=0.2; repeatable; see 'cleancolor options'")
       ->type_name("NAME=VALUE")
       ->group(group)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
 }
 
 void add_parts(CLI::App& app, SliceTexts& texts) {
@@ -134,13 +133,11 @@ void add_parts(CLI::App& app, SliceTexts& texts) {
       app.add_option("--extruder", texts.extruders, "extruder that prints the files that follow, from 1")
           ->type_name("N")
           ->group(group)
-          ->expected(1)
-          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+          ->allow_extra_args(false);
   app.add_option("--map-colour,--map-color", texts.colours, "extruder of a colour in the file; repeatable")
       ->type_name("'#RRGGBB=N'")
       ->group(group)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   app.add_option("--center", texts.center,
                  "middle of all parts on the bed, mm; default: of the area "
                  "that all needed nozzles reach")
