@@ -56,7 +56,7 @@ std::vector<Triangle> triangulated(std::span<const Vec3> corners) {
   if (corners.size() > 3) {
     const std::vector<Vec2> flat = flattened(corners);
     std::size_t i = 0, tried = 0, tests = 0;
-    while (ring.size() > 3 && tried < ring.size() && tests < 500 * corners.size()) {
+    while (ring.size() > 3 && tried < ring.size() && tests < 200 * corners.size()) {
       const std::size_t n = ring.size();
       tests += n;
       if (is_ear(flat, ring, i)) {
