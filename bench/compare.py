@@ -167,7 +167,10 @@ def main():
     for name in options.models.split(","):
         rounds = 1 if options.filament_only else options.rounds
         program = None if options.prusa_only else options.program
-        results[name] = measure(name, program, rounds, options.filament_only)
+        try:
+            results[name] = measure(name, program, rounds, options.filament_only)
+        except RuntimeError as failure:
+            sys.exit(f"scripts/bench: {failure}")
         print(table_row(name, *results[name]), flush=True)
     if options.roles:
         for name, pair in results.items():
