@@ -66,12 +66,17 @@ void compensate(std::vector<Polygons>& regions, double delta_mm) {
     target.insert(target.end(), thin.begin(), thin.end());
     target = united(target);
   }
+  Polygons taken;  // where the outside of two colours meets, both grow into the corner: the first has it
   for (Polygons& region : regions) {
     if (region.empty()) continue;
-    if (delta_mm < 0)
+    if (delta_mm < 0) {
       region = intersection(region, target);
-    else
-      region = difference(intersection(offset(region, delta_mm), target), difference(all, region));
+      continue;
+    }
+    Polygons others = difference(all, region);
+    others.insert(others.end(), taken.begin(), taken.end());
+    region = difference(intersection(offset(region, delta_mm), target), others);
+    taken.insert(taken.end(), region.begin(), region.end());
   }
 }
 
