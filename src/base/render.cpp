@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "base/draw.hpp"
@@ -134,31 +135,52 @@ void draw(Film& film, const Body& body, const std::vector<Vec3f>& at, float mm_p
   }
 }
 
+struct Offset {
+  int dx, dy;
+};
+
+/// Where to look around a sample: four patterns that fill each other's gaps, for the four cells of a pixel.
+std::array<std::array<Offset, 12>, 4> surroundings(int radius) {
+  std::array<std::array<Offset, 12>, 4> patterns{};
+  for (std::size_t q = 0; q < 4; ++q)
+    for (std::size_t k = 0; k < 12; ++k) {
+      const double angle = std::numbers::pi * (double(k) + double(q) / 4) / 12;  // half a turn: each looks both ways
+      const double r = radius * (0.25 + 0.75 * double((5 * k + 3 * q) % 12) / 11);
+      patterns[q][k] = {int(std::lround(r * std::cos(angle))), int(std::lround(r * std::sin(angle)))};
+    }
+  return patterns;
+}
+
+/// How much of the light a sample loses to what stands close around it, in [0, 1].
+float hidden_share(const Film& film, int x, int y, const std::array<Offset, 12>& around, float reach_mm) {
+  const auto index = [&](int u, int v) { return std::size_t(v) * std::size_t(film.width) + std::size_t(u); };
+  const auto inside = [&](int u, int v) { return u >= 0 && v >= 0 && u < film.width && v < film.height; };
+  const std::size_t i = index(x, y);
+  float hidden = 0;
+  for (const Offset o : around) {
+    if (!inside(x + o.dx, y + o.dy) || !inside(x - o.dx, y - o.dy)) continue;
+    const std::size_t j = index(x + o.dx, y + o.dy), k = index(x - o.dx, y - o.dy);
+    if (film.colour[j] == 0 || film.colour[k] == 0) continue;
+    // A plane rises on one side as much as it falls on the other: only hollows hide. What is far in front is no hollow.
+    const float rise = 0.5f * (film.depth[j] + film.depth[k]) - film.depth[i];
+    const float share = rise / reach_mm;
+    hidden += std::clamp(share, 0.f, 1.f) * std::clamp(2.5f - share, 0.f, 1.f);
+  }
+  return std::min(1.f, hidden / 5);
+}
+
 /// Darker where nearer surfaces stand close around a place: holds the picture together like a soft shadow.
 std::vector<float> occlusion(const Film& film, float mm_per_sample, int radius) {
-  static constexpr std::array<std::array<int, 2>, 12> directions = {
-      {{4, 0}, {-4, 0}, {0, 4}, {0, -4}, {3, 3}, {-3, 3}, {3, -3}, {-3, -3}, {2, 0}, {-2, 0}, {0, 2}, {0, -2}}};
-  std::vector<float> light(film.depth.size(), 1);
+  const auto patterns = surroundings(radius);
   const float reach_mm = float(radius) * mm_per_sample;
+  std::vector<float> light(film.depth.size(), 1);
   // One value for every 2 x 2 samples: it varies slowly. Film sides are even.
   for (int y = 0; y < film.height; y += 2)
     for (int x = 0; x < film.width; x += 2) {
       const std::size_t i = std::size_t(y) * std::size_t(film.width) + std::size_t(x);
       if (film.colour[i] == 0) continue;
-      float hidden = 0;
-      for (const auto& [dx, dy] : directions) {
-        const int u = x + dx * radius / 4, v = y + dy * radius / 4;
-        const int u2 = x - dx * radius / 4, v2 = y - dy * radius / 4;
-        if (u < 0 || v < 0 || u >= film.width || v >= film.height) continue;
-        if (u2 < 0 || v2 < 0 || u2 >= film.width || v2 >= film.height) continue;
-        const std::size_t j = std::size_t(v) * std::size_t(film.width) + std::size_t(u);
-        const std::size_t k = std::size_t(v2) * std::size_t(film.width) + std::size_t(u2);
-        if (film.colour[j] == 0 || film.colour[k] == 0) continue;
-        // A plane rises on one side as much as it falls on the other: only hollows hide.
-        const float rise = 0.5f * (film.depth[j] + film.depth[k]) - film.depth[i];
-        hidden += std::clamp(rise / reach_mm, 0.f, 1.f) * (rise < 3 * reach_mm ? 1.f : 0.4f);
-      }
-      const float value = 1 - 0.5f * std::min(1.f, hidden / 5);
+      const std::size_t cell = std::size_t((x / 2 & 1) + 2 * (y / 2 & 1));
+      const float value = 1 - 0.45f * hidden_share(film, x, y, patterns[cell], reach_mm);
       const std::size_t above = i + std::size_t(film.width);
       light[i] = light[i + 1] = light[above] = light[above + 1] = value;
     }

@@ -11,7 +11,9 @@ using namespace cleancolor;
 
 // fontconfig keeps its configuration to the end of the program; the leak checker of the asan build asks here.
 extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig";
+}
 
 namespace {
 
