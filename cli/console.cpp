@@ -1,11 +1,11 @@
-#include "console.hpp"
+#include "cli/console.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <ostream>
 
-#include "interrupt.hpp"
+#include "cli/interrupt.hpp"
 
 namespace cleancolor {
 namespace {

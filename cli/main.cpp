@@ -6,10 +6,10 @@
 #include <iostream>
 
 #include "base/error.hpp"
-#include "command_line.hpp"
-#include "interrupt.hpp"
-#include "profiles.hpp"
-#include "slice.hpp"
+#include "cli/command_line.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/profiles.hpp"
+#include "cli/slice.hpp"
 
 namespace cleancolor {
 namespace {

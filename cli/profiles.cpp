@@ -1,4 +1,4 @@
-#include "profiles.hpp"
+#include "cli/profiles.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "command_line.hpp"
+#include "cli/command_line.hpp"
 
 namespace cleancolor {
 

@@ -1,4 +1,4 @@
-#include "slice.hpp"
+#include "cli/slice.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "console.hpp"
+#include "cli/console.hpp"
+#include "cli/report.hpp"
 #include "model/profile.hpp"
-#include "report.hpp"
 
 namespace cleancolor {
 namespace {

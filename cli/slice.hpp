@@ -5,7 +5,7 @@
 
 #include <iosfwd>
 
-#include "command_line.hpp"
+#include "cli/command_line.hpp"
 
 namespace cleancolor {
 

@@ -34,22 +34,22 @@ struct LengthOrShare {
 struct Extruder {
   // printer
   double nozzle_diameter_mm = 0.4;
-  Vec2 nozzle_offset_mm;                           // where this nozzle is, seen from nozzle 0
-  std::vector<Vec2> extruder_printable_area_mm;    // where this nozzle reaches; empty: the whole bed
-  std::string extruder_colour;                     // "#RRGGBB" or empty
+  Vec2 nozzle_offset_mm;                         // where this nozzle is, seen from nozzle 0
+  std::vector<Vec2> extruder_printable_area_mm;  // where this nozzle reaches; empty: the whole bed
+  std::string extruder_colour;                   // "#RRGGBB" or empty
   double retract_length_mm = 0.5;
   double retract_speed_mm_s = 25;
-  double deretract_speed_mm_s = 0;                 // 0: as retract_speed
+  double deretract_speed_mm_s = 0;  // 0: as retract_speed
   double retract_restart_extra_mm = 0;
   double retract_before_travel_mm = 1;
   bool retract_layer_change = true;
-  double retract_lift_mm = 0;                      // z-hop
+  double retract_lift_mm = 0;  // z-hop
   double retract_length_toolchange_mm = 1;
   double retract_restart_extra_toolchange_mm = 0;
 
   // material
   std::string filament_type = "PLA";
-  std::string filament_colour;                     // "#RRGGBB" or empty
+  std::string filament_colour;  // "#RRGGBB" or empty
   double filament_diameter_mm = 1.75;
   double filament_density_g_cm3 = 1.24;
   double filament_cost_per_kg = 0;
@@ -78,12 +78,12 @@ struct Config {
   Flavour gcode_flavor = Flavour::marlin2;
   OffsetsIn offsets_in = OffsetsIn::firmware;
   IdleNozzle idle_nozzle = IdleNozzle::same_height;
-  bool audit_only = false;                         // a profile that is not complete enough to print with
+  bool audit_only = false;  // a profile that is not complete enough to print with
   std::vector<Vec2> bed_shape_mm = {{0, 0}, {200, 0}, {200, 200}, {0, 200}};
   double max_print_height_mm = 200;
   bool use_relative_e_distances = false;
-  bool remaining_times = true;                     // M73
-  std::string thumbnails = "";                     // "16x16,220x124"
+  bool remaining_times = true;  // M73
+  std::string thumbnails = "";  // "16x16,220x124"
   std::string start_gcode = "G28 ; home all axes\nG1 Z5 F5000 ; lift nozzle";
   std::string end_gcode = "M104 S0 ; turn off temperature\nG28 X0 ; home X axis\nM84 ; disable motors";
   std::string before_layer_gcode;
@@ -107,7 +107,7 @@ struct Config {
   bool external_perimeters_first = false;
   bool thin_walls = true;
   bool gap_fill_enabled = true;
-  bool overhangs = true;                           // perimeters that hang over are printed as bridges
+  bool overhangs = true;  // perimeters that hang over are printed as bridges
   int top_solid_layers = 3;
   int bottom_solid_layers = 3;
   bool interface_shells = false;
@@ -119,13 +119,13 @@ struct Config {
   double elefant_foot_compensation_mm = 0;
 
   // print: infill
-  double fill_density = 0.2;                       // share of solid, in [0, 1]
+  double fill_density = 0.2;  // share of solid, in [0, 1]
   FillPattern fill_pattern = FillPattern::gyroid;
   FillPattern top_fill_pattern = FillPattern::rectilinear;
   FillPattern bottom_fill_pattern = FillPattern::rectilinear;
   double fill_angle_deg = 45;
-  LengthOrShare infill_overlap = {0.25, true};     // of the perimeter's width
-  LengthOrShare infill_anchor_max = {50, false};   // longest link between two infill lines along the perimeter
+  LengthOrShare infill_overlap = {0.25, true};    // of the perimeter's width
+  LengthOrShare infill_anchor_max = {50, false};  // longest link between two infill lines along the perimeter
   double bridge_flow_ratio = 1;
   bool thick_bridges = true;
 
@@ -143,15 +143,15 @@ struct Config {
   LengthOrShare external_perimeter_speed = {0.5, true};  // of perimeter_speed
   LengthOrShare small_perimeter_speed = {15, false};     // of perimeter_speed
   double infill_speed_mm_s = 80;
-  LengthOrShare solid_infill_speed = {20, false};        // of infill_speed
-  LengthOrShare top_solid_infill_speed = {15, false};    // of solid_infill_speed
+  LengthOrShare solid_infill_speed = {20, false};      // of infill_speed
+  LengthOrShare top_solid_infill_speed = {15, false};  // of solid_infill_speed
   double gap_fill_speed_mm_s = 20;
   double bridge_speed_mm_s = 60;
-  LengthOrShare first_layer_speed = {30, false};         // of the speed it replaces
+  LengthOrShare first_layer_speed = {30, false};  // of the speed it replaces
   double travel_speed_mm_s = 130;
-  double travel_speed_z_mm_s = 0;                        // 0: as travel_speed
-  double max_volumetric_speed_mm3_s = 0;                 // 0: no limit
-  double default_acceleration_mm_s2 = 0;                 // 0: left to the firmware
+  double travel_speed_z_mm_s = 0;         // 0: as travel_speed
+  double max_volumetric_speed_mm3_s = 0;  // 0: no limit
+  double default_acceleration_mm_s2 = 0;  // 0: left to the firmware
   double first_layer_acceleration_mm_s2 = 0;
   double perimeter_acceleration_mm_s2 = 0;
   double infill_acceleration_mm_s2 = 0;
@@ -162,7 +162,7 @@ struct Config {
   double skirt_distance_mm = 6;
   int skirt_height_layers = 1;
   double min_skirt_length_mm = 0;
-  BrimType brim_type = BrimType::outer_only;       // printed where brim_width is positive
+  BrimType brim_type = BrimType::outer_only;  // printed where brim_width is positive
   double brim_width_mm = 0;
   double brim_separation_mm = 0;
   double prime_line_length_mm = 40;  // where no skirt primes the nozzles; 0: none

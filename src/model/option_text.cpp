@@ -69,7 +69,7 @@ std::optional<std::vector<Vec2>> polygon(std::string_view text) {
   return points;
 }
 
-// Backslash followed by n, r, t, backslash or quote.
+// Backslash n and r; a backslash before anything else stands for that.
 std::string unescaped(std::string_view text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -78,13 +78,15 @@ std::string unescaped(std::string_view text) {
       continue;
     }
     const char c = text[++i];
-    plain += c == 'n' ? '\n' : c == 'r' ? '\r' : c == 't' ? '\t' : c;
+    plain += c == 'n' ? '\n' : c == 'r' ? '\r' : c;
   }
   return plain;
 }
 
 std::string escaped(std::string_view plain, bool quotes) {
   std::string text;
+  // Readers cut off space before a value.
+  if (!quotes && (plain.starts_with(' ') || plain.starts_with('\t'))) text += '\\';
   for (const char c : plain) {
     if (c == '\n') {
       text += "\\n";
@@ -229,6 +231,22 @@ void set_option(Config& config, std::string_view name, std::string_view text, st
   }
 }
 
+namespace {
+
+std::string number_text(double value) {
+  return fmt::format("{}", value + 0.0);
+}  // never "-0"
+
+std::string share_text(double share) {
+  return fmt::format("{:.10g}%", share * 100 + 0.0);
+}
+
+std::string point_text(Vec2 p) {
+  return number_text(p.x) + "x" + number_text(p.y);
+}
+
+}  // namespace
+
 std::string value_text(const Option& option, const OptionValue& value) {
   switch (option.kind()) {
     case OptionKind::flag:
@@ -236,22 +254,22 @@ std::string value_text(const Option& option, const OptionValue& value) {
     case OptionKind::integer:
       return fmt::format("{}", std::get<int>(value));
     case OptionKind::number:
-      return fmt::format("{}", std::get<double>(value));
+      return number_text(std::get<double>(value));
     case OptionKind::percent:
-      return fmt::format("{:.10g}%", std::get<double>(value) * 100);
+      return share_text(std::get<double>(value));
     case OptionKind::choice:
       return std::string(option.choices()[static_cast<std::size_t>(std::get<int>(value))]);
     case OptionKind::text:
       return std::get<std::string>(value);
     case OptionKind::point:
-      return fmt::format("{}x{}", std::get<Vec2>(value).x, std::get<Vec2>(value).y);
+      return point_text(std::get<Vec2>(value));
     case OptionKind::length_or_share: {
       const auto v = std::get<LengthOrShare>(value);
-      return v.is_share ? fmt::format("{:.10g}%", v.value * 100) : fmt::format("{}", v.value);
+      return v.is_share ? share_text(v.value) : number_text(v.value);
     }
     case OptionKind::polygon: {
       std::vector<std::string> points;
-      for (const Vec2 p : std::get<std::vector<Vec2>>(value)) points.push_back(fmt::format("{}x{}", p.x, p.y));
+      for (const Vec2 p : std::get<std::vector<Vec2>>(value)) points.push_back(point_text(p));
       return fmt::format("{}", fmt::join(points, ","));
     }
   }

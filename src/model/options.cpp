@@ -135,8 +135,9 @@ std::string value_fault(const Option& option, const OptionValue& value) {
         if (const std::string fault = point_fault(option, p); !fault.empty()) return fault;
       }
       return "";
-    case OptionKind::flag:
     case OptionKind::text:
+      return std::get<std::string>(value).find('\0') == std::string::npos ? "" : "contains a zero byte";
+    case OptionKind::flag:
     case OptionKind::choice:
       return "";
   }

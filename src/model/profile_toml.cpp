@@ -28,6 +28,10 @@ std::string quoted(std::string_view text) {
   return toml + (has_lines ? "\"\"\"" : "\"");
 }
 
+std::string point_of(Vec2 p) {
+  return fmt::format("[{}, {}]", p.x + 0.0, p.y + 0.0);
+}  // never "-0"
+
 std::string toml_of(const Option& option, const OptionValue& value) {
   switch (option.kind()) {
     case OptionKind::flag:
@@ -44,10 +48,10 @@ std::string toml_of(const Option& option, const OptionValue& value) {
     case OptionKind::choice:
       return quoted(value_text(option, value));
     case OptionKind::point:
-      return fmt::format("[{}, {}]", std::get<Vec2>(value).x, std::get<Vec2>(value).y);
+      return point_of(std::get<Vec2>(value));
     case OptionKind::polygon: {
       std::vector<std::string> points;
-      for (const Vec2 p : std::get<std::vector<Vec2>>(value)) points.push_back(fmt::format("[{}, {}]", p.x, p.y));
+      for (const Vec2 p : std::get<std::vector<Vec2>>(value)) points.push_back(point_of(p));
       return fmt::format("[{}]", fmt::join(points, ", "));
     }
   }

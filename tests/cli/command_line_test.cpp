@@ -1,8 +1,8 @@
-#include "command_line.hpp"
+#include "cli/command_line.hpp"
 
 #include <gtest/gtest.h>
 
-#include "slice.hpp"
+#include "cli/slice.hpp"
 #include "support_errors.hpp"
 
 namespace cleancolor {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "command_line.hpp"
+#include "cli/command_line.hpp"
 #include "model/options.hpp"
 #include "support_errors.hpp"
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../../fuzz/config_targets.hpp"
 #include "../../fuzz/model_targets.hpp"
 
 namespace cleancolor {
@@ -39,6 +40,12 @@ TEST(Replay, ReadsEverySeedAndFindingOfAmf) {
 }
 TEST(Replay, ReadsEverySeedAndFindingOf3mf) {
   replay("3mf", fuzz_3mf);
+}
+TEST(Replay, ReadsEverySeedAndFindingOfToml) {
+  replay("toml", fuzz_toml);
+}
+TEST(Replay, ReadsEverySeedAndFindingOfIni) {
+  replay("ini", fuzz_ini);
 }
 
 }  // namespace
