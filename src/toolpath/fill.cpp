@@ -120,9 +120,11 @@ std::vector<std::vector<Vec2>> gyroid_curves(const Box<Vec2>& box, double z_mm, 
   const double low = (along_x ? box.min.y : box.min.x) * k, high = (along_x ? box.max.y : box.max.x) * k;
   const int steps = std::max(2, int(std::ceil((to - from) / (2 * std::numbers::pi / steps_a_wave))));
   const auto solution = [&](double t, bool second) {
-    const double a = along_x ? std::sin(t) : std::cos(t);
-    const double b = along_x ? cos_z : sin_z;
-    const double c = along_x ? sin_z * std::cos(t) : cos_z * std::sin(t);
+    // Turned so that B > 0: the angle of (A, B) then never jumps, and the curve is one line.
+    const double sign = (along_x ? cos_z : sin_z) < 0 ? -1 : 1;
+    const double a = sign * (along_x ? std::sin(t) : std::cos(t));
+    const double b = sign * (along_x ? cos_z : sin_z);
+    const double c = sign * (along_x ? sin_z * std::cos(t) : cos_z * std::sin(t));
     const double s = std::asin(std::clamp(-c / std::hypot(a, b), -1.0, 1.0));
     return (second ? std::numbers::pi - s : s) - std::atan2(a, b);
   };

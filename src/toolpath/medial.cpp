@@ -87,6 +87,23 @@ double clearance(const Voronoi::vertex_type& vertex, const std::vector<GridSegme
   return std::abs(cross(b - a, v - a)) / distance(a, b);
 }
 
+/// Joins two nodes of the axis. Where the region is too narrow or too wide at one of them, only up to where it is.
+void connect(std::vector<Node>& nodes, std::uint32_t a, std::uint32_t b, double min_width_mm, double max_width_mm) {
+  if (nodes[a].width_mm > nodes[b].width_mm) std::swap(a, b);
+  const Node narrow = nodes[a], wide = nodes[b];
+  const double widening = wide.width_mm - narrow.width_mm;
+  if (a == b || wide.width_mm < min_width_mm || narrow.width_mm > max_width_mm) return;
+  if (widening > steepest_widening * distance(narrow.at, wide.at)) return;
+  const auto node_of_width = [&](double width_mm) {
+    nodes.push_back({lerp(narrow.at, wide.at, (width_mm - narrow.width_mm) / widening), width_mm, {}});
+    return std::uint32_t(nodes.size() - 1);
+  };
+  if (narrow.width_mm < min_width_mm) a = node_of_width(min_width_mm);
+  if (wide.width_mm > max_width_mm) b = node_of_width(max_width_mm);
+  nodes[a].neighbours.push_back(b);
+  nodes[b].neighbours.push_back(a);
+}
+
 /// The axis as a graph of its nodes, spurs into corners and what is too narrow left out.
 std::vector<Node> axis(const Polygons& region, double min_width_mm, double max_width_mm) {
   const std::vector<GridSegment> segments = grid_segments(region);
@@ -103,13 +120,7 @@ std::vector<Node> axis(const Polygons& region, double min_width_mm, double max_w
   const auto index = [&](const Voronoi::vertex_type* v) { return std::uint32_t(v - diagram.vertices().data()); };
   for (const auto& edge : diagram.edges()) {
     if (edge.color() == 1 || !edge.is_primary() || !edge.is_finite() || &edge > edge.twin()) continue;
-    const std::uint32_t a = index(edge.vertex0()), b = index(edge.vertex1());
-    const double narrow = std::min(nodes[a].width_mm, nodes[b].width_mm);
-    const double wide = std::max(nodes[a].width_mm, nodes[b].width_mm);
-    if (a == b || narrow < min_width_mm || wide > max_width_mm) continue;
-    if (wide - narrow > steepest_widening * distance(nodes[a].at, nodes[b].at)) continue;
-    nodes[a].neighbours.push_back(b);
-    nodes[b].neighbours.push_back(a);
+    connect(nodes, index(edge.vertex0()), index(edge.vertex1()), min_width_mm, max_width_mm);
   }
   return nodes;
 }
@@ -141,7 +152,8 @@ std::vector<std::vector<std::uint32_t>> lines(std::vector<Node>& nodes) {
 }
 
 /// One line as a path whose stretches follow the width.
-Path medial_path(const std::vector<Node>& nodes, const std::vector<std::uint32_t>& line, const Road& road) {
+Path medial_path(const std::vector<Node>& nodes, const std::vector<std::uint32_t>& line, const Road& road,
+                 double extra_mm) {
   Path path;
   path.closed = line.size() > 3 && line.front() == line.back();
   path.points.push_back(nodes[line.front()].at);
@@ -153,7 +165,7 @@ Path medial_path(const std::vector<Node>& nodes, const std::vector<std::uint32_t
       const double width = a.width_mm + (b.width_mm - a.width_mm) * (k + 0.5) / pieces;
       if (std::abs(width - current_width) > width_step_mm / 2) {
         current_width = width;
-        path.stretches.push_back({std::uint32_t(path.points.size() - 1), with_width(road, width)});
+        path.stretches.push_back({std::uint32_t(path.points.size() - 1), with_width(road, width + extra_mm)});
       }
       path.points.push_back(lerp(a.at, b.at, double(k + 1) / pieces));
     }
@@ -164,18 +176,18 @@ Path medial_path(const std::vector<Node>& nodes, const std::vector<std::uint32_t
 
 }  // namespace
 
-std::vector<Path> medial_roads(const Polygons& region, const Road& road, double min_width_mm, double max_width_mm) {
+std::vector<Path> medial_roads(const Polygons& region, const Road& road, const MedialOptions& options) {
   // What a disc of the least width cannot enter has no axis worth printing; what the greatest fits into is not narrow.
-  Polygons narrow = opened(region, min_width_mm / 2);
-  narrow = difference(narrow, opened(narrow, max_width_mm / 2));
+  Polygons narrow = opened(region, options.min_width_mm / 2);
+  narrow = difference(narrow, opened(narrow, options.max_width_mm / 2));
   narrow = united(simplified(narrow, detail_mm));
   if (narrow.empty()) return {};
-  std::vector<Node> nodes = axis(narrow, min_width_mm, max_width_mm);
+  std::vector<Node> nodes = axis(narrow, options.min_width_mm, options.max_width_mm);
   std::vector<Path> result;
   for (const auto& line : lines(nodes)) {
     double widest = 0;
     for (const std::uint32_t n : line) widest = std::max(widest, nodes[n].width_mm);
-    Path path = medial_path(nodes, line, road);
+    Path path = medial_path(nodes, line, road, options.extra_mm);
     if (length_mm(path) >= std::max(widest, road.width_mm / 2)) result.push_back(std::move(path));
   }
   return result;

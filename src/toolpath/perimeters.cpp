@@ -116,17 +116,18 @@ Shell perimeters(const Island& island, const Polygons& overhang, const Roads& ro
   shell.fill = fill_region(region, loops, roads, options);
 
   if (options.thin_walls && !loops.thin.empty()) {
-    // From a quarter of the nozzle on, a wall can be printed at all; up to two roads, loops do not fit.
-    const double most = 2 * roads.external_perimeter.width_mm;
-    for (Path& path : medial_roads(loops.thin, roads.external_perimeter, options.nozzle_diameter_mm / 4, most)) {
+    // From a quarter of the nozzle on, a wall can be printed at all; from two roads on, loops fit.
+    const MedialOptions walls{options.nozzle_diameter_mm / 4, 2 * roads.external_perimeter.width_mm};
+    for (Path& path : medial_roads(loops.thin, roads.external_perimeter, walls)) {
       path.depth = 0;
       shell.paths.push_back(std::move(path));
     }
   }
   if (options.gap_fill && !loops.gaps.empty()) {
-    const double least = 0.2 * roads.perimeter.width_mm * (1 - tolerated_overlap);
-    const double most = 2 * spacing_mm(roads.perimeter);
-    for (Path& path : medial_roads(united(loops.gaps), roads.gap_fill, least, most)) shell.paths.push_back(std::move(path));
+    const double spacing = spacing_mm(roads.perimeter);
+    const MedialOptions gaps{0.2 * roads.perimeter.width_mm * (1 - tolerated_overlap), 2 * spacing,
+                             roads.perimeter.width_mm - spacing};
+    for (Path& path : medial_roads(united(loops.gaps), roads.gap_fill, gaps)) shell.paths.push_back(std::move(path));
   }
   return shell;
 }
