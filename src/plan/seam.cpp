@@ -67,15 +67,16 @@ Path begun_at(Path loop, const OnLoop& place) {
   return started_at(std::move(loop), to_a <= to_b ? place.segment : next);
 }
 
-Path aligned(Path loop, const SeamMemory& memory) {
+/// The place of the loop nearest to a seam of the layer below, else its sharpest corner.
+OnLoop aligned(const Path& loop, const std::vector<Vec2>& seams_below) {
   OnLoop best;
-  for (const Vec2 seam : memory.below[std::size_t(loop.extruder)]) {
+  for (const Vec2 seam : seams_below) {
     const OnLoop place = nearest_on(loop.points, seam);
     if (place.distance_mm < best.distance_mm) best = place;
   }
-  if (best.distance_mm <= follow_mm) return begun_at(std::move(loop), best);
+  if (best.distance_mm <= follow_mm) return best;
   const std::size_t corner = sharpest(loop.points);
-  return started_at(std::move(loop), corner);
+  return {corner, loop.points[corner], 0};
 }
 
 /// A point at a share of the loop's length that looks random but is the same in every run.
@@ -103,7 +104,12 @@ Path seamed(Path loop, SeamPosition position, Vec2 from, SeamMemory& memory, std
   const auto& points = loop.points;
   switch (position) {
     case SeamPosition::nearest: loop = started_at(std::move(loop), near_corner(points, from)); break;
-    case SeamPosition::aligned: loop = aligned(std::move(loop), memory); break;
+    case SeamPosition::aligned: {
+      // The place itself is remembered, not the corner near it that may be taken: else the seam would wander off.
+      const OnLoop place = aligned(loop, memory.below[e]);
+      memory.here[e].push_back(place.at);
+      return begun_at(std::move(loop), place);
+    }
     case SeamPosition::rear: {
       const auto rearmost = std::max_element(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; });
       loop = started_at(std::move(loop), std::size_t(rearmost - points.begin()));
@@ -111,7 +117,6 @@ Path seamed(Path loop, SeamPosition position, Vec2 from, SeamMemory& memory, std
     }
     case SeamPosition::random: loop = scattered(std::move(loop), seed); break;
   }
-  memory.here[e].push_back(loop.start());
   return loop;
 }
 

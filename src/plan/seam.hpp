@@ -10,7 +10,7 @@
 
 namespace cleancolor {
 
-/// What the seams of a layer remember of the layer below.
+/// What aligned seams of a layer remember of the layer below.
 struct SeamMemory {
   std::vector<std::vector<Vec2>> below;  // [extruder], seams of the layer below
   std::vector<std::vector<Vec2>> here;   // of this one, so far
