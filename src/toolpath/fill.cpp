@@ -12,9 +12,11 @@ namespace {
 
 using Rings = std::vector<std::vector<Vec2>>;
 
-// A line shorter than this share of its spacing is a blob, not a line.
+// What is shorter than this share of its spacing or width is a blob, not a line.
 constexpr double shortest_share = 0.5;
 
+// How far lines reach over the place where their outer edge touches the border, as a share of their spacing.
+constexpr double reach_share = 0.15;
 // Infill need not be smooth: what counts is how many moves it takes.
 constexpr double curve_tolerance_mm = 0.03;
 constexpr int steps_a_wave = 24;
@@ -27,6 +29,7 @@ std::vector<Path> as_paths(std::vector<std::vector<Vec2>> lines, const Road& roa
     Path path;
     path.points = std::move(line);
     path.stretches = {{0, road}};
+    if (length_mm(path) < shortest_share * road.width_mm) continue;
     result.push_back(std::move(path));
   }
   return result;
@@ -66,7 +69,7 @@ std::vector<BorderLine> vertical_lines(const Rings& rings, const Border& border,
     std::sort(column.begin(), column.end(), [](const Crossing& a, const Crossing& b) { return a.y < b.y; });
     const double x = x0 + (double(c) + first_row) * spacing;
     for (std::size_t i = 0; i + 1 < column.size(); i += 2)
-      if (column[i + 1].y - column[i].y > shortest_share * spacing * 0.5 || column.size() == 2)
+      if (column[i + 1].y - column[i].y > shortest_mm)
         lines.push_back({{{x, column[i].y}, {x, column[i + 1].y}}, column[i].place, column[i + 1].place, first_row + int(c)});
   }
   return lines;
@@ -192,7 +195,9 @@ std::vector<Path> concentric(const Polygons& region, const Fill& fill, const Roa
 }  // namespace
 
 std::vector<Path> filled(const Polygons& region, const Fill& fill, const Road& road) {
-  const Polygons inner = offset(region, -fill.spacing_mm / 2);
+  // Only where a whole road fits beside the border; but lines go on over it, to bond with what lies beyond.
+  Polygons inner = offset(region, -fill.spacing_mm / 2);
+  if (fill.pattern != FillPattern::concentric) inner = offset(inner, reach_share * fill.spacing_mm);
   std::vector<Path> result;
   const auto add = [&](std::vector<Path> paths) {
     std::move(paths.begin(), paths.end(), std::back_inserter(result));

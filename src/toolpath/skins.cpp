@@ -25,7 +25,7 @@ Polygons widened(const Polygons& solid, const Polygons& fill, double spacing_mm)
 
 Faces faces(const Polygons& region, const Polygons& fill, const Polygons& above, const Polygons& below, bool on_bed,
             double line_mm) {
-  const auto open = [&](const Polygons& cover) { return opened(difference(region, cover), line_mm / 20); };
+  const auto open = [&](const Polygons& cover) { return opened(difference(region, cover), line_mm / 10); };
   const auto held = [&](const Polygons& face) {
     const Polygons seen = intersection(face, fill);
     return seen.empty() ? seen : intersection(offset(seen, hold_mm), fill);

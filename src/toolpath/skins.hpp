@@ -26,7 +26,7 @@ struct Faces {
 };
 
 /// region: what the extruder prints; fill: what its perimeters leave; above, below: what covers and carries it.
-/// line_mm: width of an outer road; faces narrower than a tenth of it are inaccuracies.
+/// line_mm: width of an outer road; faces narrower than a fifth of it are inaccuracies.
 Faces faces(const Polygons& region, const Polygons& fill, const Polygons& above, const Polygons& below, bool on_bed,
             double line_mm);
 

@@ -178,8 +178,10 @@ std::vector<Path> layer_paths(const Slices& slices, LayerShells& shells, const L
     fill.bridge(area.bridge);
     fill.solid(area.bottom, config.bottom_fill_pattern, r.solid_infill);
     fill.solid(area.top, config.top_fill_pattern, r.top_solid_infill);
-    // Solid over sparse infill hangs between its lines; a narrow strip has its neighbours to hold on to.
-    const Polygons hanging = opened(intersection(area.solid, sparse_below), 3 * r.bridge_infill.width_mm);
+    // Solid over sparse infill hangs between its lines; a narrow strip has its neighbours to hold on to. Opening makes
+    // cut corners sharp again: the result is kept within the area.
+    const Polygons wide = opened(intersection(area.solid, sparse_below), 3 * r.bridge_infill.width_mm);
+    const Polygons hanging = wide.empty() ? wide : intersection(wide, area.solid);
     fill.solid(hanging, FillPattern::rectilinear, r.bridge_infill);
     fill.solid(difference(area.solid, hanging), FillPattern::rectilinear, r.solid_infill);
     if (config.fill_density > 0) fill.sparse(area.sparse);
