@@ -38,8 +38,10 @@ class TestFolder {
  public:
   TestFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            (std::string("cleancolor_") + test->test_suite_name() + "_" + test->name());
+    std::string name = std::string("cleancolor_") + test->test_suite_name() + "_" + test->name();
+    for (char& c : name)
+      if (c == '/') c = '_';  // in the names of parameterised tests
+    path_ = std::filesystem::temp_directory_path() / name;
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
