@@ -12,9 +12,9 @@ namespace {
 
 using Rings = std::vector<std::vector<Vec2>>;
 
-// What is shorter than this share of its spacing or width is a blob, not a line.
+// What is shorter is a blob, not a line: a path against the width of its road, a line before it is linked in mm.
+constexpr double shortest_share = 0.5;
 constexpr double shortest_mm = 0.1;
-
 // How far lines reach over the place where their outer edge touches the border, as a share of their spacing.
 constexpr double reach_share = 0.15;
 // Infill need not be smooth: what counts is how many moves it takes.
