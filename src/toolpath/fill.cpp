@@ -56,8 +56,8 @@ std::vector<BorderLine> vertical_lines(const Rings& rings, const Border& border,
   for (std::size_t r = 0; r < rings.size(); ++r)
     for (std::size_t i = 0; i < rings[r].size(); ++i) {
       const Vec2 a = rings[r][i], b = rings[r][(i + 1) % rings[r].size()];
-      // Half-open: a corner on the line belongs to the edge that comes from the left.
-      for (int row = row_of(std::min(a.x, b.x)); x0 + row * spacing < std::max(a.x, b.x); ++row) {
+      // Half-open in rows, which both edges at a corner count alike: a line through a corner crosses one of them.
+      for (int row = row_of(std::min(a.x, b.x)); row < row_of(std::max(a.x, b.x)); ++row) {
         const double x = x0 + row * spacing;
         const Vec2 p{x, a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x)};
         columns[std::size_t(row - first_row)].push_back({p.y, border.place(int(r), i, p)});
