@@ -127,33 +127,6 @@ void warn_of_moves(const Box<Vec3>& box, const Box<Vec2>& area, const std::strin
                               name, box.center().x, box.center().y));
 }
 
-/// Whether some other box carries this one, or lies in front of its underside.
-bool is_carried(const Box<Vec3>& box, const std::vector<Box<Vec3>>& boxes) {
-  constexpr double gap_mm = 0.05;
-  if (box.min.z <= gap_mm) return true;
-  return std::any_of(boxes.begin(), boxes.end(), [&](const Box<Vec3>& other) {
-    return other.min.z < box.min.z && other.max.z >= box.min.z - gap_mm &&
-           !apart(box.min.x, box.max.x, other.min.x - gap_mm, other.max.x + gap_mm) &&
-           !apart(box.min.y, box.max.y, other.min.y - gap_mm, other.max.y + gap_mm);
-  });
-}
-
-/// Parts that start above the bed with nothing below them, as far as boxes tell.
-void warn_of_floating(std::span<const Part> parts, const Progress& progress) {
-  std::vector<Box<Vec3>> boxes;
-  for (const Part& part : parts) boxes.push_back(bounds(part.mesh));
-  std::size_t first = parts.size(), count = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (is_carried(boxes[i], boxes)) continue;
-    first = std::min(first, i);
-    ++count;
-  }
-  if (count == 0) return;
-  const std::string others = count == 1 ? "" : fmt::format(", and so do {} other parts", count - 1);
-  progress.warn(fmt::format("{}: floats {:.2f} mm above the bed with nothing below it{}", parts[first].name,
-                            boxes[first].min.z, others));
-}
-
 }  // namespace
 
 void place(std::span<Part> parts, const Config& config, const Placement& placement, const Progress& progress) {
@@ -184,7 +157,6 @@ void place(std::span<Part> parts, const Config& config, const Placement& placeme
   const Vec2 shift = placement.keep ? Vec2{} : target - Vec2{box.center().x, box.center().y};
   move(parts, {shift.x, shift.y, -box.min.z});
   require_reach(parts, config);
-  warn_of_floating(parts, progress);
 }
 
 }  // namespace cleancolor

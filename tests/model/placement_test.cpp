@@ -118,15 +118,5 @@ TEST(Place, WarnsOfPartsFarOffTheBedButNotOfOnesDrawnAroundTheOrigin) {
   EXPECT_EQ(of_around.texts.size(), 0) << of_around.all();
 }
 
-TEST(Place, WarnsOfAPartWithNothingBelowIt) {
-  std::vector<Part> beside = {box_part({0, 0, 0}, {20, 20, 20}), box_part({25, 0, 15}, {35, 10, 25})};
-  std::vector<Part> on_top = {box_part({0, 0, 0}, {20, 20, 20}), box_part({0, 0, 20}, {10, 10, 25})};
-  Warnings of_beside, of_on_top;
-  place(beside, dual_printer(), {}, of_beside.progress);
-  place(on_top, dual_printer(), {}, of_on_top.progress);
-  EXPECT_TRUE(of_beside.contain("floats 15.00 mm")) << of_beside.all();
-  EXPECT_EQ(of_on_top.texts.size(), 0) << of_on_top.all();
-}
-
 }  // namespace
 }  // namespace cleancolor
