@@ -15,25 +15,36 @@ double distance_to(const Path& path, Vec2 p) {
   return least;
 }
 
+/// [extruder][island]; std::map keeps both in their order.
+using Islands = std::map<int, std::map<int, std::vector<Path>>>;
+
 class Orderer {
  public:
   Orderer(Layer& layer, OrderState& state, const Config& config) : layer_(layer), state_(state), config_(config) {}
 
   void run() {
-    // By extruder and island; std::map keeps both in their order.
-    std::map<int, std::map<int, std::vector<Path>>> paths;
+    Islands paths;
     for (Path& path : layer_.paths) paths[path.extruder][path.island].push_back(std::move(path));
     layer_.paths.clear();
-    if (paths.contains(state_.extruder)) print_extruder(state_.extruder, paths[state_.extruder]);
-    const int first = state_.extruder;
-    for (auto& [extruder, islands] : paths)
-      if (extruder != first || !printed_) print_extruder(extruder, islands);
+    for (const int extruder : sequence(paths)) print_extruder(extruder, paths[extruder]);
     state_.seams.next_layer();
   }
 
  private:
+  /// The extruder of the layer below first. Before it, in the first layer, those that are only primed there: the part
+  /// is not left for them.
+  std::vector<int> sequence(const Islands& paths) const {
+    std::vector<int> result;
+    for (const auto& [extruder, islands] : paths) result.push_back(extruder);
+    const auto rank = [&](int extruder) {
+      const bool only_primed = paths.at(extruder).rbegin()->first == -1;
+      return layer_.index == 0 && only_primed ? 0 : extruder == state_.extruder ? 1 : 2;
+    };
+    std::stable_sort(result.begin(), result.end(), [&](int a, int b) { return rank(a) < rank(b); });
+    return result;
+  }
+
   void print_extruder(int extruder, std::map<int, std::vector<Path>>& islands) {
-    printed_ = true;
     state_.extruder = extruder;
     if (const auto bed = islands.find(-1); bed != islands.end()) {
       for (Path& path : bed->second) print(std::move(path));
@@ -82,7 +93,6 @@ class Orderer {
   Layer& layer_;
   OrderState& state_;
   const Config& config_;
-  bool printed_ = false;
 };
 
 }  // namespace

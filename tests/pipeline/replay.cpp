@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <optional>
+
+#include "toolpath/path.hpp"
 
 namespace cleancolor::test {
 namespace {
@@ -40,6 +43,13 @@ Words words_of(std::string_view line) {
   return words;
 }
 
+/// The same name, but of static storage.
+std::string_view known_role(std::string_view name) {
+  for (int i = 0; i < role_count; ++i)
+    if (role_name(Role(i)) == name) return role_name(Role(i));
+  return "Custom";
+}
+
 class Printer {
  public:
   explicit Printer(const Config& config) : config_(config) {
@@ -60,7 +70,7 @@ class Printer {
     if (words.code == "G92") std::fill(count_.begin(), count_.end(), 0.0);
     if (words.code == "M73" && words.p) printed.percents.push_back(int(*words.p));
     if (words.code == "M108" && words.t) select(int(*words.t));
-    if (words.code.size() > 1 && words.code[0] == 'T') select(std::atoi(words.code.data() + 1));
+    if (words.code.size() > 1 && words.code[0] == 'T' && std::isdigit(words.code[1])) select(words.code[1] - '0');
   }
 
   Printed printed;
@@ -68,7 +78,7 @@ class Printer {
  private:
   void comment(std::string_view line) {
     if (line == ";LAYER_CHANGE") printing_ = true, ++layer_;
-    if (line.starts_with(";TYPE:")) role_ = line.substr(6);
+    if (line.starts_with(";TYPE:")) role_ = known_role(line.substr(6));
     if (line == ";TYPE:Custom" && layer_ >= 0) printing_ = false;
     if (line.starts_with(";WIDTH:")) width_mm_ = std::strtod(line.data() + 7, nullptr);
     if (line.starts_with(";Z:")) printed.layer_z_mm.push_back(std::strtod(line.data() + 3, nullptr));

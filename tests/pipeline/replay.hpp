@@ -21,7 +21,7 @@ namespace cleancolor::test {
 /// One straight piece of extrusion.
 struct PrintedRoad {
   int tool = 0;
-  std::string_view role;  // of ;TYPE:, such as "External perimeter"; lives as long as the text
+  std::string_view role;  // of ;TYPE:, such as "External perimeter"; lives for ever
   Vec2 from, to;          // where the nozzle is, model coordinates, mm
   double z = 0;           // mm
   double width_mm = 0;    // of ;WIDTH:
@@ -46,7 +46,6 @@ struct Printed {
   std::vector<std::string> broken;  // rules of retraction and movement, each in words, at most 10
 };
 
-/// Requires: text outlives the result (roles point into it).
 Printed replayed(std::string_view text, const Config& config);
 
 /// The list behind "; name = 1.00, 2.00" in the comments at the end; empty where there is none.

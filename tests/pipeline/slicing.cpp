@@ -53,7 +53,7 @@ std::vector<Model> listed_models() {
       {"materialandcolor2", {lib3mf + "materialandcolor2.3mf"}, "", true},
       {"bulldozer", {lib3mf + "Mesh1-two-objects.3mf"}},
       {"wagon", {lib3mf + "wagon-with-wheels.3mf"}, "", true, 0.8},
-      {"detachedmodel", {lib3mf + "detachedmodel-27-instances.3mf"}, "", true, 0.8},
+      {"detachedmodel", {lib3mf + "detachedmodel-27-instances.3mf"}, "", true, 0.7},
       {"color-093", {lib3mf + "Color_093-legacy.3mf"}, colours, true},
       {"pyramid-properties", {lib3mf + "PyramidWithProperties.3mf"}, "", false, 0.6},
       {"orca-cube", {"thirdparty/orcaslicer/OrcaCube_v2.3mf"}, "", false, 0.4},
