@@ -16,7 +16,8 @@ constexpr std::array<std::uint32_t, 6> palette = {0x3B7DD8, 0xF2A93B, 0x4CAF50, 
 
 std::uint32_t colour(const Part& part, const Config& config) {
   const auto extruder = std::size_t(*part.extruder);
-  for (const std::string& text : {config.extruders[extruder].filament_colour, config.extruders[extruder].extruder_colour}) {
+  for (const std::string& text :
+       {config.extruders[extruder].filament_colour, config.extruders[extruder].extruder_colour}) {
     std::uint32_t rgb = 0;
     if (text.size() == 7 && text[0] == '#' &&
         std::from_chars(text.data() + 1, text.data() + 7, rgb, 16).ptr == text.data() + 7)
@@ -34,7 +35,8 @@ std::pair<int, int> size_px(std::string_view text) {
     // PrusaSlicer 2.7 and later append the format: 220x124/PNG. Only PNG is written.
     const auto second = std::from_chars(first.ptr + 1, end, height);
     const std::string_view rest(second.ptr, std::size_t(end - second.ptr));
-    if ((rest.empty() || rest == "/PNG") && width >= 1 && height >= 1 && width <= 2048 && height <= 2048) return {width, height};
+    if ((rest.empty() || rest == "/PNG") && width >= 1 && height >= 1 && width <= 2048 && height <= 2048)
+      return {width, height};
   }
   throw Error(fmt::format("thumbnails: '{}' is not a size such as 220x124 (each side 1 to 2048)", text));
 }

@@ -71,8 +71,14 @@ std::vector<std::optional<LayerRange>> extruder_use(const Slices& slices) {
 class Print {
  public:
   Print(const SliceRequest& request, const Slices& slices, PrintInfo info, Sink sink, const Progress& progress)
-      : config_(request.config), slices_(slices), info_(std::move(info)), sink_(std::move(sink)), progress_(progress),
-        shells_(slices.slabs.size()), areas_(slices.slabs.size()), paths_(slices.slabs.size()) {
+      : config_(request.config),
+        slices_(slices),
+        info_(std::move(info)),
+        sink_(std::move(sink)),
+        progress_(progress),
+        shells_(slices.slabs.size()),
+        areas_(slices.slabs.size()),
+        paths_(slices.slabs.size()) {
     std::vector<int> used;
     for (std::size_t e = 0; e < info_.use.size(); ++e)
       if (info_.use[e]) used.push_back(int(e));
@@ -95,14 +101,17 @@ class Print {
                     threads);
     warn_of_losses();
     PrintFigures figures = writer_->finish();
-    const bool nothing = std::all_of(coverage_.begin(), coverage_.end(), [](const Coverage& c) { return c.lost_mm2 >= c.all_mm2; });
+    const bool nothing =
+        std::all_of(coverage_.begin(), coverage_.end(), [](const Coverage& c) { return c.lost_mm2 >= c.all_mm2; });
     if (nothing) throw Error("every wall is too thin to print: nothing would come out; is the model's scale right?");
     return figures;
   }
 
  private:
   template <class T>
-  static T& slot(std::vector<T>& slots, int k) { return slots[std::size_t(k)]; }
+  static T& slot(std::vector<T>& slots, int k) {
+    return slots[std::size_t(k)];
+  }
 
   void make_paths(int k) {
     const LayerAreas* below = k > 0 ? &slot(areas_, k - 1) : nullptr;
@@ -112,7 +121,8 @@ class Print {
   void write(int k) {
     if (progress_.interrupted()) throw Error("interrupted");
     const Slab& slab = slices_.slabs[std::size_t(k)];
-    Layer layer{.index = k, .print_z_mm = slab.print_z_mm, .height_mm = slab.height_mm, .paths = {}, .fan_by_extruder = {}};
+    Layer layer{
+        .index = k, .print_z_mm = slab.print_z_mm, .height_mm = slab.height_mm, .paths = {}, .fan_by_extruder = {}};
     if (k < int(bed_.size())) layer.paths = std::move(slot(bed_, k));
     std::move(slot(paths_, k).begin(), slot(paths_, k).end(), std::back_inserter(layer.paths));
     order(layer, state_, config_);
@@ -149,9 +159,10 @@ class Print {
                                    100 * c.lost_mm2 / c.all_mm2, e + 1,
                                    config_.thin_walls ? "" : "; thin_walls = 1 prints most of it"));
       if (c.thin_mm2 > noticed)
-        progress_.warn(fmt::format("{:.0f} % of what extruder {} should print is thinner than its nozzle ({} mm): such "
-                                   "walls come out weak or not at all; make them thicker",
-                                   100 * c.thin_mm2 / c.all_mm2, e + 1, config_.extruders[e].nozzle_diameter_mm));
+        progress_.warn(
+            fmt::format("{:.0f} % of what extruder {} should print is thinner than its nozzle ({} mm): such "
+                        "walls come out weak or not at all; make them thicker",
+                        100 * c.thin_mm2 / c.all_mm2, e + 1, config_.extruders[e].nozzle_diameter_mm));
     }
   }
 

@@ -22,14 +22,14 @@ struct ModelFile {
 };
 
 struct SliceRequest {
-  std::vector<ModelFile> files;                // at least one
+  std::vector<ModelFile> files;                  // at least one
   std::map<std::uint32_t, int> extruder_of_rgb;  // --map-colour: 0xRRGGBB -> extruder, 0-based
   Config config;
   Placement placement;
   Overlap overlap = Overlap::refuse;
-  std::filesystem::path output;                // written aside and renamed
-  std::filesystem::path preview;               // a PNG picture of the coloured parts; empty: none
-  int threads = 0;                             // 0: as many as the machine has
+  std::filesystem::path output;   // written aside and renamed
+  std::filesystem::path preview;  // a PNG picture of the coloured parts; empty: none
+  int threads = 0;                // 0: as many as the machine has
 };
 
 struct ExtruderUse {
@@ -41,8 +41,8 @@ struct ExtruderUse {
 struct Summary {
   int layers = 0;
   int tool_changes = 0;
-  double time_s = 0;                     // heating not included
-  std::vector<ExtruderUse> extruders;    // one for each extruder of the config
+  double time_s = 0;                   // heating not included
+  std::vector<ExtruderUse> extruders;  // one for each extruder of the config
 };
 
 /// Slices the files and writes one G-code file.

@@ -112,7 +112,7 @@ const EdgeRows::Edge* EdgeRows::nearest(Vec2 p, double within_mm) const {
 std::vector<std::vector<Vec2>> EdgeRows::clipped(const std::vector<Vec2>& line) const {
   std::vector<std::vector<Vec2>> result;
   std::vector<double> cuts;
-  bool inside = false;   // does the piece at hand continue the last line of the result?
+  bool inside = false;  // does the piece at hand continue the last line of the result?
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Vec2 a = line[i], b = line[i + 1];
     cuts.assign({0.0});
@@ -127,7 +127,9 @@ std::vector<std::vector<Vec2>> EdgeRows::clipped(const std::vector<Vec2>& line) 
       inside = here;
     }
   }
-  std::erase_if(result, [](const std::vector<Vec2>& piece) { return distance(piece.front(), piece.back()) < shortest_mm && piece.size() < 3; });
+  std::erase_if(result, [](const std::vector<Vec2>& piece) {
+    return distance(piece.front(), piece.back()) < shortest_mm && piece.size() < 3;
+  });
   return result;
 }
 

@@ -13,8 +13,8 @@ namespace cleancolor {
 class EdgeRows {
  public:
   struct Edge {
-    Vec2 a, b;          // mm
-    int ring = 0;       // of the region
+    Vec2 a, b;                // mm
+    int ring = 0;             // of the region
     std::uint32_t index = 0;  // of a in its ring
   };
 
@@ -39,7 +39,7 @@ class EdgeRows {
 
   std::vector<Edge> edges_;
   double y0_ = 0;
-  double height_mm_ = 1;  // of a row
+  double height_mm_ = 1;              // of a row
   std::vector<std::uint32_t> first_;  // in_row_[first_[r] .. first_[r + 1]) touch row r
   std::vector<std::uint32_t> in_row_;
 };

@@ -58,12 +58,13 @@ class Schedule {
 
  private:
   struct StageState {
-    int next = 0;             // the first index not begun
-    int done_up_to = 0;       // all indices below are done
+    int next = 0;        // the first index not begun
+    int done_up_to = 0;  // all indices below are done
     std::vector<char> done;
   };
 
-  /// Does the most urgent step: the serial end first, because it frees memory, then the later stages before the earlier.
+  /// Does the most urgent step: the serial end first, because it frees memory, then the later stages before the
+  /// earlier.
   bool take_step(std::unique_lock<std::mutex>& lock) {
     if (!consuming_ && stages_.back().done_up_to > consumed_) {
       consuming_ = true;

@@ -99,9 +99,12 @@ Ring simplified_ring(const Ring& ring, double tolerance_nm) {
 
 ClipperLib::JoinType join_type(Corners corners) {
   switch (corners) {
-    case Corners::miter: return ClipperLib::jtMiter;
-    case Corners::round: return ClipperLib::jtRound;
-    case Corners::square: return ClipperLib::jtSquare;
+    case Corners::miter:
+      return ClipperLib::jtMiter;
+    case Corners::round:
+      return ClipperLib::jtRound;
+    case Corners::square:
+      return ClipperLib::jtSquare;
   }
   return ClipperLib::jtMiter;
 }
@@ -115,8 +118,12 @@ std::vector<Vec2> to_mm(const Ring& ring) {
   return points;
 }
 
-Polygons united(const Polygons& a) { return united(a, {}); }
-Polygons united(const Polygons& a, const Polygons& b) { return boolean(ClipperLib::ctUnion, a, b); }
+Polygons united(const Polygons& a) {
+  return united(a, {});
+}
+Polygons united(const Polygons& a, const Polygons& b) {
+  return boolean(ClipperLib::ctUnion, a, b);
+}
 
 Polygons intersection(const Polygons& a, const Polygons& b) {
   if (a.empty() || b.empty() || !boxes_meet(a, b)) return {};
@@ -178,7 +185,8 @@ std::vector<Island> islands(const Polygons& region) {
     for (Island& island : result) {
       if (result.size() == 1) break;
       int in = -1;
-      for (std::size_t i = 0; i < ring.size() && in == -1; ++i) in = ClipperLib::PointInPolygon(ring[i], island.outline);
+      for (std::size_t i = 0; i < ring.size() && in == -1; ++i)
+        in = ClipperLib::PointInPolygon(ring[i], island.outline);
       if (in == 0) continue;
       const double area = area_mm2(island.outline);
       if (area < owner_area) owner = &island, owner_area = area;
@@ -194,7 +202,9 @@ Polygons polygons(const Island& island) {
   return result;
 }
 
-double area_mm2(const Ring& ring) { return ClipperLib::Area(ring) * mm_per_nm * mm_per_nm; }
+double area_mm2(const Ring& ring) {
+  return ClipperLib::Area(ring) * mm_per_nm * mm_per_nm;
+}
 
 double area_mm2(const Polygons& region) {
   double sum = 0;

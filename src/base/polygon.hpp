@@ -3,7 +3,8 @@
 // Polygons on an integer grid of 1 nm, and what Clipper does with them, in mm.
 //
 // A Ring is closed and does not repeat its first point. Polygons are rings that bound a region by the non-zero rule:
-// after any operation below, outlines run counterclockwise, holes clockwise, and none cross. Coordinates stay exact up to
+// after any operation below, outlines run counterclockwise, holes clockwise, and none cross. Coordinates stay exact up
+// to
 // +-1073 mm, where Clipper computes in 64 bits; the pipeline refuses larger beds.
 #pragma once
 
@@ -22,8 +23,12 @@ using Polygons = ClipperLib::Paths;
 inline constexpr double nm_per_mm = 1e6;
 inline constexpr double mm_per_nm = 1e-6;
 
-inline Point to_nm(Vec2 p) { return {std::llround(p.x * nm_per_mm), std::llround(p.y * nm_per_mm)}; }
-inline Vec2 to_mm(Point p) { return {double(p.X) * mm_per_nm, double(p.Y) * mm_per_nm}; }
+inline Point to_nm(Vec2 p) {
+  return {std::llround(p.x * nm_per_mm), std::llround(p.y * nm_per_mm)};
+}
+inline Vec2 to_mm(Point p) {
+  return {double(p.X) * mm_per_nm, double(p.Y) * mm_per_nm};
+}
 std::vector<Vec2> to_mm(const Ring& ring);
 
 /// One connected piece: an outline (counterclockwise) and its holes (clockwise).
@@ -60,9 +65,9 @@ std::vector<Vec2> simplified(const std::vector<Vec2>& line, double tolerance_mm)
 std::vector<Island> islands(const Polygons& region);
 Polygons polygons(const Island& island);
 
-double area_mm2(const Ring& ring);          // signed: counterclockwise positive
+double area_mm2(const Ring& ring);  // signed: counterclockwise positive
 double area_mm2(const Polygons& region);
-double length_mm(const Ring& ring);         // closed
+double length_mm(const Ring& ring);  // closed
 double length_mm(const Polygons& region);
 Box<Vec2> bounds_mm(const Polygons& region);
 bool contains(const Polygons& region, Point p);  // the border counts as inside

@@ -18,12 +18,24 @@ struct Vec2 {
   friend constexpr bool operator==(Vec2, Vec2) = default;
 };
 
-constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-constexpr double length_squared(Vec2 a) { return dot(a, a); }
-inline double length(Vec2 a) { return std::sqrt(dot(a, a)); }
-inline double distance(Vec2 a, Vec2 b) { return length(b - a); }
-constexpr Vec2 lerp(Vec2 a, Vec2 b, double t) { return a + (b - a) * t; }
+constexpr double dot(Vec2 a, Vec2 b) {
+  return a.x * b.x + a.y * b.y;
+}
+constexpr double cross(Vec2 a, Vec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+constexpr double length_squared(Vec2 a) {
+  return dot(a, a);
+}
+inline double length(Vec2 a) {
+  return std::sqrt(dot(a, a));
+}
+inline double distance(Vec2 a, Vec2 b) {
+  return length(b - a);
+}
+constexpr Vec2 lerp(Vec2 a, Vec2 b, double t) {
+  return a + (b - a) * t;
+}
 
 struct Vec3 {
   double x = 0;
@@ -37,10 +49,18 @@ struct Vec3 {
   friend constexpr bool operator==(Vec3, Vec3) = default;
 };
 
-constexpr double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-constexpr Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-inline double length(Vec3 a) { return std::sqrt(dot(a, a)); }
-inline double distance(Vec3 a, Vec3 b) { return length(b - a); }
+constexpr double dot(Vec3 a, Vec3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+constexpr Vec3 cross(Vec3 a, Vec3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(Vec3 a) {
+  return std::sqrt(dot(a, a));
+}
+inline double distance(Vec3 a, Vec3 b) {
+  return length(b - a);
+}
 
 /// An axis-aligned box; empty until a point is added.
 template <class V>

@@ -11,7 +11,8 @@ constexpr double follow_mm = 3;    // an aligned seam follows one of the layer b
 constexpr double corner_mm = 1.5;  // a right-angled corner is worth this much detour
 constexpr double new_point_mm = 0.3;
 
-/// How sharp the corner is, in [0, 1]: 0 straight on, 1 straight back. Inner corners hide a seam better than outer ones.
+/// How sharp the corner is, in [0, 1]: 0 straight on, 1 straight back. Inner corners hide a seam better than outer
+/// ones.
 double sharpness(const std::vector<Vec2>& points, std::size_t i) {
   const std::size_t n = points.size();
   const Vec2 in = points[i] - points[(i + n - 1) % n], out = points[(i + 1) % n] - points[i];
@@ -27,7 +28,8 @@ std::size_t sharpest(const std::vector<Vec2>& points) {
   double best_score = -1;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double score = std::round(sharpness(points, i) * 50);
-    const bool further_back = points[i].y > points[best].y || (points[i].y == points[best].y && points[i].x > points[best].x);
+    const bool further_back =
+        points[i].y > points[best].y || (points[i].y == points[best].y && points[i].x > points[best].x);
     if (score > best_score || (score == best_score && further_back)) best_score = score, best = i;
   }
   return best;
@@ -103,7 +105,9 @@ Path seamed(Path loop, SeamPosition position, Vec2 from, SeamMemory& memory, std
   if (memory.here.size() <= e) memory.here.resize(e + 1);
   const auto& points = loop.points;
   switch (position) {
-    case SeamPosition::nearest: loop = started_at(std::move(loop), near_corner(points, from)); break;
+    case SeamPosition::nearest:
+      loop = started_at(std::move(loop), near_corner(points, from));
+      break;
     case SeamPosition::aligned: {
       // The place itself is remembered, not the corner near it that may be taken: else the seam would wander off.
       const OnLoop place = aligned(loop, memory.below[e]);
@@ -115,7 +119,9 @@ Path seamed(Path loop, SeamPosition position, Vec2 from, SeamMemory& memory, std
       loop = started_at(std::move(loop), std::size_t(rearmost - points.begin()));
       break;
     }
-    case SeamPosition::random: loop = scattered(std::move(loop), seed); break;
+    case SeamPosition::random:
+      loop = scattered(std::move(loop), seed);
+      break;
   }
   return loop;
 }

@@ -19,8 +19,8 @@ struct Cut {
   Point at;  // on the edge `from`
 };
 
-/// Where the edge meets the plane. The ends are ordered by position, not by index, so that two meshes that share an edge
-/// get the same point to the last bit.
+/// Where the edge meets the plane. The ends are ordered by position, not by index, so that two meshes that share an
+/// edge get the same point to the last bit.
 Point edge_point(Vec3 a, Vec3 b, double z) {
   if (std::pair(a.z, std::pair(a.x, a.y)) > std::pair(b.z, std::pair(b.x, b.y))) std::swap(a, b);
   const double t = b.z > a.z ? std::clamp((z - a.z) / (b.z - a.z), 0.0, 1.0) : 0;
@@ -29,7 +29,8 @@ Point edge_point(Vec3 a, Vec3 b, double z) {
 
 /// Rings from cuts: each goes on with the cut that starts on the edge where it ends.
 Polygons chained(std::vector<Cut> cuts) {
-  std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return std::pair(a.from, a.to) < std::pair(b.from, b.to); });
+  std::sort(cuts.begin(), cuts.end(),
+            [](const Cut& a, const Cut& b) { return std::pair(a.from, a.to) < std::pair(b.from, b.to); });
   std::vector<char> used(cuts.size(), 0);
   const auto next_of = [&](EdgeKey edge) {
     auto it = std::lower_bound(cuts.begin(), cuts.end(), edge, [](const Cut& c, EdgeKey e) { return c.from < e; });

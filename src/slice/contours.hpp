@@ -24,7 +24,7 @@ class PlaneCuts {
   const Mesh& mesh_;
   std::vector<double> z_mm_;
   double top_mm_ = 0;
-  std::vector<std::uint32_t> first_;      // triangles_[first_[k] .. first_[k + 1]) may cut plane k
+  std::vector<std::uint32_t> first_;  // triangles_[first_[k] .. first_[k + 1]) may cut plane k
   std::vector<std::uint32_t> triangles_;
 };
 

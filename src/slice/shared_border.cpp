@@ -8,7 +8,9 @@
 namespace cleancolor {
 namespace {
 
-bool less(const Point& a, const Point& b) { return std::pair(a.X, a.Y) < std::pair(b.X, b.Y); }
+bool less(const Point& a, const Point& b) {
+  return std::pair(a.X, a.Y) < std::pair(b.X, b.Y);
+}
 
 /// For each point of the layer, the set of regions (as bits; from the 64th on they share one) that have it.
 class Owners {
@@ -29,7 +31,8 @@ class Owners {
   }
 
   std::uint64_t of(const Point& p) const {
-    return std::lower_bound(entries_.begin(), entries_.end(), p, [](const Entry& e, const Point& q) { return less(e.point, q); })
+    return std::lower_bound(entries_.begin(), entries_.end(), p,
+                            [](const Entry& e, const Point& q) { return less(e.point, q); })
         ->regions;
   }
 
@@ -49,15 +52,16 @@ std::vector<std::size_t> anchors(const Ring& ring, const Owners* owners) {
   if (owners) {
     std::vector<std::uint64_t> sets(n);
     for (std::size_t i = 0; i < n; ++i) sets[i] = owners->of(ring[i]);
-    // A run is shared by the regions that have both ends of its segments; where a neighbour lacks one, the run ends here.
+    // A run is shared by the regions that have both ends of its segments; where a neighbour lacks one, the run ends
+    // here.
     for (std::size_t i = 0; i < n; ++i) {
       const std::uint64_t next = sets[(i + 1) % n], before = sets[(i + n - 1) % n];
       if ((sets[i] & ~next) || (sets[i] & ~before)) result.push_back(i);
     }
   }
   if (result.size() >= 2) return result;
-  const std::size_t low = result.empty() ? std::size_t(std::min_element(ring.begin(), ring.end(), less) - ring.begin())
-                                         : result.front();
+  const std::size_t low =
+      result.empty() ? std::size_t(std::min_element(ring.begin(), ring.end(), less) - ring.begin()) : result.front();
   std::size_t far = low;
   double farthest = -1;
   for (std::size_t i = 0; i < n; ++i) {
@@ -84,8 +88,7 @@ Ring thinned(const Ring& ring, const Owners* owners, double tolerance_mm) {
     if (backwards) std::reverse(run.begin(), run.end());
     run = simplified(run, tolerance_mm * nm_per_mm);
     if (backwards) std::reverse(run.begin(), run.end());
-    for (std::size_t i = 0; i + 1 < run.size(); ++i)
-      result.push_back({std::int64_t(run[i].x), std::int64_t(run[i].y)});
+    for (std::size_t i = 0; i + 1 < run.size(); ++i) result.push_back({std::int64_t(run[i].x), std::int64_t(run[i].y)});
   }
   return result;
 }

@@ -110,22 +110,25 @@ void report(std::span<const Part> parts, const Slices& slices, const std::vector
                     worst->wide_second + 1, worst->wide_overlap_mm2,
                     slices.slabs[std::size_t(worst - findings.begin())].slice_z_mm());
     if (rule == Overlap::refuse)
-      throw Error(where + "; cut the parts apart in the modeller, or say which one has the place: --overlap first or last");
+      throw Error(where +
+                  "; cut the parts apart in the modeller, or say which one has the place: --overlap first or last");
     progress.warn(fmt::format("{}: given to the {}", where, rule == Overlap::first ? "first" : "last"));
   }
   double mended = 0;
   for (const Finding& f : findings) mended += f.mended_overlap_mm3;
   if (mended > 0.01)
-    progress.warn(fmt::format("parts overlap by less than {} mm, {:.2f} mm3 in all: given to the first", tolerated_overlap_mm, mended));
+    progress.warn(fmt::format("parts overlap by less than {} mm, {:.2f} mm3 in all: given to the first",
+                              tolerated_overlap_mm, mended));
 
   int mid_air = 0;
   for (const Finding& f : findings) mid_air += f.mid_air;
   if (mid_air == 0) return;
   const auto first = std::find_if(findings.begin(), findings.end(), [](const Finding& f) { return f.mid_air > 0; });
-  progress.warn(fmt::format("{} {} in mid-air with nothing below, the first at ({:.1f}, {:.1f}), z = {:.2f} mm: it will "
-                            "droop; turn the model or put something under it",
-                            mid_air, mid_air == 1 ? "piece begins" : "pieces begin", first->mid_air_at_mm.x,
-                            first->mid_air_at_mm.y, slices.slabs[std::size_t(first - findings.begin())].slice_z_mm()));
+  progress.warn(
+      fmt::format("{} {} in mid-air with nothing below, the first at ({:.1f}, {:.1f}), z = {:.2f} mm: it will "
+                  "droop; turn the model or put something under it",
+                  mid_air, mid_air == 1 ? "piece begins" : "pieces begin", first->mid_air_at_mm.x,
+                  first->mid_air_at_mm.y, slices.slabs[std::size_t(first - findings.begin())].slice_z_mm()));
 }
 
 }  // namespace
@@ -141,16 +144,19 @@ std::vector<Slab> slabs(double top_mm, double first_layer_height_mm, double laye
   return result;
 }
 
-Polygons cross_section(const Mesh& mesh, double z_mm) { return united(PlaneCuts(mesh, std::span(&z_mm, 1)).rings(0)); }
+Polygons cross_section(const Mesh& mesh, double z_mm) {
+  return united(PlaneCuts(mesh, std::span(&z_mm, 1)).rings(0));
+}
 
 Slices slices(std::span<const Part> parts, const SliceOptions& options, const Progress& progress) {
   double top_mm = 0;
   for (const Part& part : parts) top_mm = std::max(top_mm, bounds(part.mesh).max.z);
   Slices result{slabs(top_mm, options.first_layer_height_mm, options.layer_height_mm), {}, {}};
   if (result.slabs.empty())
-    throw Error(fmt::format("the model is {:.3f} mm high, less than half the first layer ({} mm): nothing would be "
-                            "printed; scale it (files in metres or inches?) or choose a smaller first_layer_height",
-                            top_mm, options.first_layer_height_mm));
+    throw Error(
+        fmt::format("the model is {:.3f} mm high, less than half the first layer ({} mm): nothing would be "
+                    "printed; scale it (files in metres or inches?) or choose a smaller first_layer_height",
+                    top_mm, options.first_layer_height_mm));
 
   std::vector<double> planes;
   for (const Slab& slab : result.slabs) planes.push_back(slab.slice_z_mm());

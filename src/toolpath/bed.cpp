@@ -84,7 +84,8 @@ std::vector<Path> skirt(const Slices& slices, const Polygons& base, const std::v
 }
 
 /// One line for each extruder along the first edge of the bed (front, back, left, right) that the part leaves free.
-std::vector<Path> prime_lines(const Slices& slices, const Polygons& base, const std::vector<int>& used, const Config& config) {
+std::vector<Path> prime_lines(const Slices& slices, const Polygons& base, const std::vector<int>& used,
+                              const Config& config) {
   Polygons common = reach(config, used.front());
   for (const int extruder : used) common = intersection(common, reach(config, extruder));
   const Box<Vec2> bed = bounds_mm(common);
@@ -111,8 +112,7 @@ std::vector<Path> prime_lines(const Slices& slices, const Polygons& base, const 
         path.points.push_back(p);
       }
       inset += 2 * road.width_mm;
-      fits = fits && within(path, common) &&
-             EdgeRows(keep_out).clipped(path.points).empty();
+      fits = fits && within(path, common) && EdgeRows(keep_out).clipped(path.points).empty();
       paths.push_back(std::move(path));
     }
     if (fits) return paths;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int angles = 36;
 constexpr double line_spacing_mm = 1;
-constexpr int most_lines = 40;      // a large gap is judged by this many
+constexpr int most_lines = 40;        // a large gap is judged by this many
 constexpr double step_over_mm = 0.3;  // how far past its end a line must find something to rest on
 
 struct Support {

@@ -5,7 +5,9 @@
 namespace cleancolor {
 namespace {
 
-bool may_slow(const Road& road) { return road.role != Role::bridge_infill && road.role != Role::overhang_perimeter; }
+bool may_slow(const Road& road) {
+  return road.role != Role::bridge_infill && road.role != Role::overhang_perimeter;
+}
 
 /// Seconds of printing, split into what may be slowed down and what may not (bridges, travel).
 struct LayerTime {
@@ -20,7 +22,8 @@ void for_each_stretch(Path& path, Visit visit) {
   for (std::size_t s = 0; s < path.stretches.size(); ++s) {
     const std::size_t last = s + 1 < path.stretches.size() ? path.stretches[s + 1].first_segment : path.segments();
     double length = 0;
-    for (std::size_t i = path.stretches[s].first_segment; i < last; ++i) length += distance(path.points[i], path.points[(i + 1) % n]);
+    for (std::size_t i = path.stretches[s].first_segment; i < last; ++i)
+      length += distance(path.points[i], path.points[(i + 1) % n]);
     visit(path.stretches[s].road, length);
   }
 }

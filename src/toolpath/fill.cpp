@@ -21,7 +21,9 @@ constexpr double reach_share = 0.15;
 constexpr double curve_tolerance_mm = 0.03;
 constexpr int steps_a_wave = 24;
 
-Vec2 turned(Vec2 p, double cosine, double sine) { return {p.x * cosine - p.y * sine, p.x * sine + p.y * cosine}; }
+Vec2 turned(Vec2 p, double cosine, double sine) {
+  return {p.x * cosine - p.y * sine, p.x * sine + p.y * cosine};
+}
 
 std::vector<Path> as_paths(std::vector<std::vector<Vec2>> lines, const Road& road) {
   std::vector<Path> result;
@@ -70,13 +72,15 @@ std::vector<BorderLine> vertical_lines(const Rings& rings, const Border& border,
     const double x = x0 + (double(c) + first_row) * spacing;
     for (std::size_t i = 0; i + 1 < column.size(); i += 2)
       if (column[i + 1].y - column[i].y > shortest_mm)
-        lines.push_back({{{x, column[i].y}, {x, column[i + 1].y}}, column[i].place, column[i + 1].place, first_row + int(c)});
+        lines.push_back(
+            {{{x, column[i].y}, {x, column[i + 1].y}}, column[i].place, column[i + 1].place, first_row + int(c)});
   }
   return lines;
 }
 
 /// Parallel lines at an angle through one region, linked.
-std::vector<std::vector<Vec2>> parallel_lines(const Polygons& region, const Fill& fill, double angle_rad, double density) {
+std::vector<std::vector<Vec2>> parallel_lines(const Polygons& region, const Fill& fill, double angle_rad,
+                                              double density) {
   // Turned so that the lines are vertical, and back again.
   const double turn = std::numbers::pi / 2 - angle_rad;
   const double cosine = std::cos(turn), sine = std::sin(turn);
@@ -199,9 +203,7 @@ std::vector<Path> filled(const Polygons& region, const Fill& fill, const Road& r
   Polygons inner = offset(region, -fill.spacing_mm / 2);
   if (fill.pattern != FillPattern::concentric) inner = offset(inner, reach_share * fill.spacing_mm);
   std::vector<Path> result;
-  const auto add = [&](std::vector<Path> paths) {
-    std::move(paths.begin(), paths.end(), std::back_inserter(result));
-  };
+  const auto add = [&](std::vector<Path> paths) { std::move(paths.begin(), paths.end(), std::back_inserter(result)); };
   for (const Island& island : islands(inner)) {
     const Polygons piece = polygons(island);
     switch (fill.pattern) {

@@ -22,10 +22,10 @@ struct Fill {
 
 /// Lines that cover the region.
 ///
-/// Lines go 0.15 of their spacing over the place where their outer edge touches the border, to bond with what lies beyond.
-/// At density 1 the lines of each island are spread evenly over its width; below, they lie at the same places in every
-/// layer. grid takes half the density in each of two directions.
-/// Cost: region points x lines that each edge crosses; gyroid and concentric one or more Clipper operations.
+/// Lines go 0.15 of their spacing over the place where their outer edge touches the border, to bond with what lies
+/// beyond. At density 1 the lines of each island are spread evenly over its width; below, they lie at the same places
+/// in every layer. grid takes half the density in each of two directions. Cost: region points x lines that each edge
+/// crosses; gyroid and concentric one or more Clipper operations.
 std::vector<Path> filled(const Polygons& region, const Fill& fill, const Road& road);
 
 /// The angle of a rectilinear fill in a layer: fill_angle, turned by 90 degrees in every other layer.

@@ -41,7 +41,8 @@ std::vector<Arc> arcs(const std::vector<BorderLine>& lines, const Border& border
       // A zigzag joins row 2n to 2n + 1 at their last ends and 2n + 1 to 2n + 2 at their first ones.
       const int row_a = lines[std::size_t(a.id / 2)].row, row_b = lines[std::size_t(b.id / 2)].row;
       const bool same_side = a.id % 2 == b.id % 2;
-      const bool zigzag = same_side && std::abs(row_a - row_b) == 1 && (std::min(row_a, row_b) % 2 == 0) == (a.id % 2 == 1);
+      const bool zigzag =
+          same_side && std::abs(row_a - row_b) == 1 && (std::min(row_a, row_b) % 2 == 0) == (a.id % 2 == 1);
       result.push_back({a.id, b.id, arc, zigzag});
     }
     i = j;
@@ -62,7 +63,8 @@ int root(std::vector<int>& parent, int i) {
 Border::Border(const std::vector<std::vector<Vec2>>& rings) : rings_(rings) {
   for (const auto& ring : rings) {
     std::vector<double> along{0};
-    for (std::size_t i = 0; i < ring.size(); ++i) along.push_back(along.back() + distance(ring[i], ring[(i + 1) % ring.size()]));
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      along.push_back(along.back() + distance(ring[i], ring[(i + 1) % ring.size()]));
     along_.push_back(std::move(along));
   }
 }
@@ -77,7 +79,8 @@ std::vector<Vec2> Border::between(int ring, double from_mm, double to_mm) const 
   const auto& points = rings_[std::size_t(ring)];
   std::vector<Vec2> result;
   const auto take = [&](double from, double to) {
-    for (auto i = std::size_t(std::upper_bound(along.begin(), along.end(), from) - along.begin()); i < points.size() && along[i] < to; ++i)
+    for (auto i = std::size_t(std::upper_bound(along.begin(), along.end(), from) - along.begin());
+         i < points.size() && along[i] < to; ++i)
       result.push_back(points[i]);
   };
   if (from_mm <= to_mm) {
@@ -124,7 +127,9 @@ std::vector<std::vector<Vec2>> linked(std::vector<BorderLine> lines, const Borde
       const int out = end ^ 1;
       const Link link = links[std::size_t(out)];
       if (link.to < 0) break;
-      const auto place_of = [&](int e) { return e % 2 ? lines[std::size_t(e / 2)].last : lines[std::size_t(e / 2)].first; };
+      const auto place_of = [&](int e) {
+        return e % 2 ? lines[std::size_t(e / 2)].last : lines[std::size_t(e / 2)].first;
+      };
       const Border::Place from = place_of(link.forwards ? out : link.to), to = place_of(link.forwards ? link.to : out);
       std::vector<Vec2> arc = border.between(from.ring, from.along_mm, to.along_mm);
       if (!link.forwards) std::reverse(arc.begin(), arc.end());

@@ -3,8 +3,8 @@
 // Link: infill lines joined into long paths along the border of their region.
 //
 // Each end of each line lies on the border. Two ends that follow each other on a ring of it can be joined by the arc
-// between them; the joined lines are one path, printed without a stop. Fewer starts and stops leave fewer blobs, and the
-// planner that comes later has fewer paths to visit.
+// between them; the joined lines are one path, printed without a stop. Fewer starts and stops leave fewer blobs, and
+// the planner that comes later has fewer paths to visit.
 #pragma once
 
 #include <vector>

@@ -46,7 +46,8 @@ std::vector<GridSegment> grid_segments(const Polygons& region) {
   return result;
 }
 
-/// Marks all edges outside the region: those that reach infinity and those connected to them, up to the region's border.
+/// Marks all edges outside the region: those that reach infinity and those connected to them, up to the region's
+/// border.
 void mark_outside(const Voronoi& diagram) {
   std::vector<const Voronoi::edge_type*> todo;
   for (const auto& edge : diagram.edges())

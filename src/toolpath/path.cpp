@@ -64,16 +64,26 @@ Path reversed(Path path) {
 
 std::string_view role_name(Role role) {
   switch (role) {
-    case Role::external_perimeter: return "External perimeter";
-    case Role::perimeter: return "Perimeter";
-    case Role::overhang_perimeter: return "Overhang perimeter";
-    case Role::internal_infill: return "Internal infill";
-    case Role::solid_infill: return "Solid infill";
-    case Role::top_solid_infill: return "Top solid infill";
-    case Role::bridge_infill: return "Bridge infill";
-    case Role::gap_fill: return "Gap fill";
-    case Role::skirt_brim: return "Skirt/Brim";
-    case Role::prime: return "Skirt/Brim";
+    case Role::external_perimeter:
+      return "External perimeter";
+    case Role::perimeter:
+      return "Perimeter";
+    case Role::overhang_perimeter:
+      return "Overhang perimeter";
+    case Role::internal_infill:
+      return "Internal infill";
+    case Role::solid_infill:
+      return "Solid infill";
+    case Role::top_solid_infill:
+      return "Top solid infill";
+    case Role::bridge_infill:
+      return "Bridge infill";
+    case Role::gap_fill:
+      return "Gap fill";
+    case Role::skirt_brim:
+      return "Skirt/Brim";
+    case Role::prime:
+      return "Skirt/Brim";
   }
   return "Custom";
 }

@@ -52,8 +52,8 @@ inline constexpr int fill_depth = 1000;
 /// points are in model coordinates (where the plastic lies), mm; a closed path does not repeat its first point.
 /// stretches: at least one, ascending, the first from segment 0; a loop that overhangs in places stays one path.
 struct Path {
-  int extruder = 0;  // 0-based
-  int island = 0;    // which connected piece of its extruder's region in this layer; -1: none (skirt, prime)
+  int extruder = 0;        // 0-based
+  int island = 0;          // which connected piece of its extruder's region in this layer; -1: none (skirt, prime)
   int depth = fill_depth;  // of a perimeter: 0 along the outline, 1 the next one inside, ...
   bool closed = false;
   std::vector<Vec2> points;
@@ -70,7 +70,7 @@ struct Layer {
   int index = 0;
   double print_z_mm = 0;  // the nozzle's height while it prints: the layer's top
   double height_mm = 0;
-  std::vector<Path> paths;            // in printing order
+  std::vector<Path> paths;              // in printing order
   std::vector<double> fan_by_extruder;  // share of full fan speed in [0, 1]; bridges may ask for more (writer)
 };
 

@@ -17,8 +17,8 @@ namespace cleancolor {
 struct PerimeterOptions {
   int count = 2;
   bool external_first = false;
-  bool thin_walls = true;   // walls narrower than one road get one road of their own width
-  bool gap_fill = true;     // so do gaps between loops
+  bool thin_walls = true;  // walls narrower than one road get one road of their own width
+  bool gap_fill = true;    // so do gaps between loops
   double nozzle_diameter_mm = 0.4;
   LengthOrShare infill_overlap = {0.25, true};
   LengthOrShare small_perimeter_speed = {15, false};

@@ -33,9 +33,13 @@ Road bridge(const Config& config, Role role, double nozzle_mm, const Road& flat)
 
 }  // namespace
 
-double road_spacing_mm(double width_mm, double height_mm) { return width_mm - height_mm * (1 - std::numbers::pi / 4); }
+double road_spacing_mm(double width_mm, double height_mm) {
+  return width_mm - height_mm * (1 - std::numbers::pi / 4);
+}
 
-double road_area_mm2(double width_mm, double height_mm) { return height_mm * road_spacing_mm(width_mm, height_mm); }
+double road_area_mm2(double width_mm, double height_mm) {
+  return height_mm * road_spacing_mm(width_mm, height_mm);
+}
 
 double spacing_mm(const Road& road) {
   const bool hangs = road.width_mm == road.height_mm;
@@ -45,8 +49,8 @@ double spacing_mm(const Road& road) {
 Road with_width(Road road, double width_mm) {
   // Below this width the formula for the cross-section has no flat part left; a thinner line is a smaller disc.
   road.width_mm = width_mm;
-  road.area_mm2 = width_mm > road.height_mm ? road_area_mm2(width_mm, road.height_mm)
-                                            : std::numbers::pi / 4 * width_mm * width_mm;
+  road.area_mm2 =
+      width_mm > road.height_mm ? road_area_mm2(width_mm, road.height_mm) : std::numbers::pi / 4 * width_mm * width_mm;
   return road;
 }
 
@@ -64,8 +68,8 @@ Roads roads(const Config& config, int extruder, int layer_index, const Slab& sla
   r.perimeter = road(Role::perimeter, config.perimeter_extrusion_width, config.perimeter_speed_mm_s);
   r.internal_infill = road(Role::internal_infill, config.infill_extrusion_width, config.infill_speed_mm_s);
   r.solid_infill = road(Role::solid_infill, config.solid_infill_extrusion_width, solid_speed);
-  r.top_solid_infill = road(Role::top_solid_infill, config.top_infill_extrusion_width,
-                            config.top_solid_infill_speed.of(solid_speed));
+  r.top_solid_infill =
+      road(Role::top_solid_infill, config.top_infill_extrusion_width, config.top_solid_infill_speed.of(solid_speed));
   r.gap_fill = road(Role::gap_fill, config.perimeter_extrusion_width, config.gap_fill_speed_mm_s);
   r.skirt_brim = road(Role::skirt_brim, config.perimeter_extrusion_width, config.perimeter_speed_mm_s);
   r.prime = road(Role::prime, config.perimeter_extrusion_width, config.perimeter_speed_mm_s);

@@ -14,8 +14,8 @@
 namespace cleancolor {
 
 struct Roads {
-  Road external_perimeter, perimeter, overhang_perimeter, internal_infill, solid_infill, top_solid_infill, bridge_infill,
-      gap_fill, skirt_brim, prime;
+  Road external_perimeter, perimeter, overhang_perimeter, internal_infill, solid_infill, top_solid_infill,
+      bridge_infill, gap_fill, skirt_brim, prime;
 };
 
 /// Cross-section, mm2, and distance of neighbours, mm.  Requires: width > height (1 - pi/4).

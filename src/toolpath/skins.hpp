@@ -4,8 +4,9 @@
 //
 //   what lies above and below each layer  ->  top, bridge, solid and sparse areas of a layer
 //
-// A place is top where no part at all covers it, bottom where none lies below: a colour covered by another needs no skin
-// unless interface_shells. Tops and bottoms are carried down and up through top_solid_layers and bottom_solid_layers.
+// A place is top where no part at all covers it, bottom where none lies below: a colour covered by another needs no
+// skin unless interface_shells. Tops and bottoms are carried down and up through top_solid_layers and
+// bottom_solid_layers.
 #pragma once
 
 #include <span>

@@ -40,7 +40,9 @@ Polygons overhang(const Slices& slices, int layer, const Polygons& region, doubl
 Coverage coverage(const Island& island, const Shell& shell, double nozzle_mm) {
   Coverage result;
   result.all_mm2 = area_mm2(polygons(island));
-  const auto thinner = [&](const Path& path) { return path.depth == 0 && !path.closed && path.road().width_mm < nozzle_mm; };
+  const auto thinner = [&](const Path& path) {
+    return path.depth == 0 && !path.closed && path.road().width_mm < nozzle_mm;
+  };
   if (shell.paths.empty() && shell.fill.empty())
     result.lost_mm2 = result.all_mm2;
   else if (shell.fill.empty() && std::all_of(shell.paths.begin(), shell.paths.end(), thinner))
@@ -65,8 +67,11 @@ void name_islands(std::vector<Path>& paths, std::size_t first, const std::vector
 class Filler {
  public:
   Filler(const Slices& slices, int layer, int extruder, const Config& config, std::vector<Path>& paths)
-      : config_(config), slab_(slices.slabs[std::size_t(layer)]), roads_(roads(config, extruder, layer, slab_)),
-        layer_(layer), paths_(paths) {
+      : config_(config),
+        slab_(slices.slabs[std::size_t(layer)]),
+        roads_(roads(config, extruder, layer, slab_)),
+        layer_(layer),
+        paths_(paths) {
     if (layer > 0) below_ = &slices.outlines[std::size_t(layer) - 1];
   }
 
@@ -77,8 +82,11 @@ class Filler {
   void sparse(const Polygons& area) {
     const Road& road = roads_.internal_infill;
     add(area,
-        {.pattern = config_.fill_pattern, .density = config_.fill_density, .angle_rad = fill_angle_rad(config_, layer_),
-         .z_mm = slab_.print_z_mm, .spacing_mm = spacing_mm(road),
+        {.pattern = config_.fill_pattern,
+         .density = config_.fill_density,
+         .angle_rad = fill_angle_rad(config_, layer_),
+         .z_mm = slab_.print_z_mm,
+         .spacing_mm = spacing_mm(road),
          .max_link_mm = config_.infill_anchor_max.of(spacing_mm(road))},
         road);
   }
@@ -88,7 +96,9 @@ class Filler {
     for (const Island& island : islands(area)) {
       const Polygons piece = polygons(island);
       const auto angle = below_ ? bridge_angle_rad(difference(piece, *below_), *below_) : std::nullopt;
-      add(piece, {.angle_rad = angle.value_or(fill_angle_rad(config_, layer_)), .spacing_mm = spacing_mm(roads_.bridge_infill)},
+      add(piece,
+          {.angle_rad = angle.value_or(fill_angle_rad(config_, layer_)),
+           .spacing_mm = spacing_mm(roads_.bridge_infill)},
           roads_.bridge_infill);
     }
   }
@@ -111,7 +121,9 @@ class Filler {
 
 }  // namespace
 
-int skin_reach(const Config& config) { return std::max({config.top_solid_layers, config.bottom_solid_layers, 1}) - 1; }
+int skin_reach(const Config& config) {
+  return std::max({config.top_solid_layers, config.bottom_solid_layers, 1}) - 1;
+}
 
 LayerShells layer_shells(const Slices& slices, int layer, const Config& config) {
   const auto k = std::size_t(layer);
@@ -135,8 +147,9 @@ LayerShells layer_shells(const Slices& slices, int layer, const Config& config) 
     }
     if (shell.fill.empty()) continue;
     const int extruder = int(e);
-    shell.faces = faces(region, shell.fill, cover(slices, layer + 1, extruder, config),
-                        cover(slices, layer - 1, extruder, config), layer == 0, extruder_roads.external_perimeter.width_mm);
+    shell.faces =
+        faces(region, shell.fill, cover(slices, layer + 1, extruder, config),
+              cover(slices, layer - 1, extruder, config), layer == 0, extruder_roads.external_perimeter.width_mm);
   }
   return shells;
 }
@@ -162,8 +175,8 @@ LayerAreas layer_areas(const std::vector<LayerShells>& shells, int layer, const 
   return areas;
 }
 
-std::vector<Path> layer_paths(const Slices& slices, LayerShells& shells, const LayerAreas* below, const LayerAreas& areas,
-                              int layer, const Config& config) {
+std::vector<Path> layer_paths(const Slices& slices, LayerShells& shells, const LayerAreas* below,
+                              const LayerAreas& areas, int layer, const Config& config) {
   Polygons sparse_below;
   if (below)
     for (const FillAreas& a : *below) sparse_below.insert(sparse_below.end(), a.sparse.begin(), a.sparse.end());

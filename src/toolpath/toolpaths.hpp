@@ -34,8 +34,8 @@ struct Coverage {
 
 /// One extruder in one layer.
 struct ExtruderShell {
-  std::vector<Path> paths;       // perimeters, thin walls, gap fill
-  std::vector<Island> islands;   // of the extruder's region; Path::island counts them
+  std::vector<Path> paths;      // perimeters, thin walls, gap fill
+  std::vector<Island> islands;  // of the extruder's region; Path::island counts them
   Polygons fill;
   Faces faces;
   Coverage coverage;
@@ -53,7 +53,7 @@ LayerShells layer_shells(const Slices& slices, int layer, const Config& config);
 LayerAreas layer_areas(const std::vector<LayerShells>& shells, int layer, const Config& config);
 
 /// The paths of one layer. shells.paths are moved out.
-std::vector<Path> layer_paths(const Slices& slices, LayerShells& shells, const LayerAreas* below, const LayerAreas& areas,
-                              int layer, const Config& config);
+std::vector<Path> layer_paths(const Slices& slices, LayerShells& shells, const LayerAreas* below,
+                              const LayerAreas& areas, int layer, const Config& config);
 
 }  // namespace cleancolor

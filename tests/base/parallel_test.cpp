@@ -24,7 +24,11 @@ TEST(ParallelFor, OfNothingDoesNothing) {
 }
 
 TEST(ParallelFor, ThrowsWhatItsBodyThrew) {
-  EXPECT_THROW(parallel_for(100, 3, [](int i) { if (i == 50) throw std::runtime_error("50"); }), std::runtime_error);
+  EXPECT_THROW(parallel_for(100, 3,
+                            [](int i) {
+                              if (i == 50) throw std::runtime_error("50");
+                            }),
+               std::runtime_error);
 }
 
 // Three stages that each write down what they saw of the stage before: all within reach must be there.
@@ -41,15 +45,20 @@ void run_recorded(Recorded& r, int count, int threads) {
   const auto in = [&](int i) { return i >= 0 && i < count; };
   run({.count = count,
        .window = 12,
-       .stages = {{0, [&](int i) {
+       .stages = {{0,
+                   [&](int i) {
                      std::this_thread::sleep_for(std::chrono::microseconds((i * 37) % 90));
                      r.first[std::size_t(i)] = i + 1;
                    }},
-                  {3, [&](int i) {
+                  {3,
+                   [&](int i) {
                      for (int k = i - 3; k <= i + 3; ++k)
                        if (in(k)) r.second[std::size_t(i)] += r.first[std::size_t(k)];
                    }},
-                  {1, [&](int i) { r.third[std::size_t(i)] = r.second[std::size_t(i)] + (i > 0 ? r.second[std::size_t(i - 1)] : 0); }}},
+                  {1,
+                   [&](int i) {
+                     r.third[std::size_t(i)] = r.second[std::size_t(i)] + (i > 0 ? r.second[std::size_t(i - 1)] : 0);
+                   }}},
        .consume = [&](int i) { r.order.push_back(i); }},
       threads);
 }
@@ -75,10 +84,11 @@ TEST(Stream, NeverRunsFurtherAheadThanItsWindow) {
   run({.count = 100,
        .window = 8,
        .stages = {{0, [&](int) { ++prepared; }}},
-       .consume = [&](int) {
-         most = std::max(most.load(), prepared.load() - consumed);
-         ++consumed;
-       }},
+       .consume =
+           [&](int) {
+             most = std::max(most.load(), prepared.load() - consumed);
+             ++consumed;
+           }},
       4);
   EXPECT_LE(most, 8 + 1);
   EXPECT_EQ(consumed, 100);
@@ -88,12 +98,18 @@ TEST(Stream, StopsAndThrowsFromAnyStage) {
   for (const int where : {0, 1, 2}) {
     int consumed = 0;
     const auto failing = [&](int stage) {
-      return [=](int i) { if (stage == where && i == 20) throw std::runtime_error("20"); };
+      return [=](int i) {
+        if (stage == where && i == 20) throw std::runtime_error("20");
+      };
     };
     EXPECT_THROW(run({.count = 50,
                       .window = 6,
                       .stages = {{0, failing(0)}, {2, failing(1)}},
-                      .consume = [&](int i) { failing(2)(i); ++consumed; }},
+                      .consume =
+                          [&](int i) {
+                            failing(2)(i);
+                            ++consumed;
+                          }},
                      3),
                  std::runtime_error);
     EXPECT_LE(consumed, 21);

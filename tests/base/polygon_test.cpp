@@ -5,7 +5,9 @@
 namespace cleancolor {
 namespace {
 
-Polygons square(double side) { return rectangle({0, 0}, {side, side}); }
+Polygons square(double side) {
+  return rectangle({0, 0}, {side, side});
+}
 
 Polygons with_hole(double side, double hole) {
   const double a = (side - hole) / 2;
@@ -47,11 +49,14 @@ TEST(Islands, HaveTheirOwnHolesAndIslandsInHolesAreIslands) {
   EXPECT_NEAR(area_mm2(polygons(pieces[0])) + area_mm2(polygons(pieces[1])), 3600 + 1200, 1e-6);
 }
 
-TEST(Islands, OfNothingAreNone) { EXPECT_TRUE(islands({}).empty()); }
+TEST(Islands, OfNothingAreNone) {
+  EXPECT_TRUE(islands({}).empty());
+}
 
 TEST(Simplified, KeepsWithinTheToleranceAndDropsTheRest) {
   Ring circle;
-  for (int i = 0; i < 1000; ++i) circle.push_back(to_nm({10 * std::cos(i * 0.0062831853), 10 * std::sin(i * 0.0062831853)}));
+  for (int i = 0; i < 1000; ++i)
+    circle.push_back(to_nm({10 * std::cos(i * 0.0062831853), 10 * std::sin(i * 0.0062831853)}));
   const Polygons thin = simplified(Polygons{circle}, 0.02);
   ASSERT_EQ(thin.size(), 1u);
   EXPECT_LT(thin[0].size(), 80u);  // a chord of sagitta 0.02 spans 7.2 degrees

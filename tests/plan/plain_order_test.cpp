@@ -36,12 +36,15 @@ Layer random_layer(unsigned seed) {
       layer.paths.push_back(loop_at(c, 3.6, extruder, island, 1));
       layer.paths.push_back(loop_at(c, 4, extruder, island, 0));
       for (int i = 0; i < 3; ++i)
-        layer.paths.push_back(path_of(extruder, island, fill_depth, {c + Vec2{-3, double(i)}, c + Vec2{3, double(i)}}, false));
+        layer.paths.push_back(
+            path_of(extruder, island, fill_depth, {c + Vec2{-3, double(i)}, c + Vec2{3, double(i)}}, false));
     }
   return layer;
 }
 
-auto key(const Path& p) { return std::tuple(p.extruder, p.island, p.depth, length_mm(p)); }
+auto key(const Path& p) {
+  return std::tuple(p.extruder, p.island, p.depth, length_mm(p));
+}
 
 TEST(PlainOrder, PrintsEveryPathOnce) {
   for (unsigned seed = 0; seed < 20; ++seed) {
@@ -69,7 +72,9 @@ TEST(PlainOrder, PrintsInnerLoopsBeforeOuterAndLoopsBeforeFill) {
     for (std::size_t i = 1; i < layer.paths.size(); ++i) {
       const Path &a = layer.paths[i - 1], &b = layer.paths[i];
       if (a.extruder != b.extruder || a.island != b.island) continue;
-      const auto rank = [&](const Path& p) { return p.depth == fill_depth ? 2 : (p.depth == 0) != outer_first ? 1 : 0; };
+      const auto rank = [&](const Path& p) {
+        return p.depth == fill_depth ? 2 : (p.depth == 0) != outer_first ? 1 : 0;
+      };
       EXPECT_LE(rank(a), rank(b));
     }
   }
@@ -83,7 +88,8 @@ TEST(PlainOrder, StaysWithTheExtruderOfTheLayerBelow) {
     const int before = state.extruder;
     order(layer, state, {});
     EXPECT_EQ(layer.paths.front().extruder, before);
-    for (std::size_t i = 1; i < layer.paths.size(); ++i) changes += layer.paths[i].extruder != layer.paths[i - 1].extruder;
+    for (std::size_t i = 1; i < layer.paths.size(); ++i)
+      changes += layer.paths[i].extruder != layer.paths[i - 1].extruder;
   }
   EXPECT_EQ(changes, 10);
 }
@@ -100,7 +106,8 @@ TEST(PlainOrder, GoesToTheNearestIslandNext) {
 
 TEST(PlainOrder, TurnsOpenPathsRoundWhereTheOtherEndIsNearer) {
   Layer layer;
-  layer.paths = {path_of(0, 0, fill_depth, {{0, 0}, {10, 0}}, false), path_of(0, 0, fill_depth, {{0, 1}, {10, 1}}, false)};
+  layer.paths = {path_of(0, 0, fill_depth, {{0, 0}, {10, 0}}, false),
+                 path_of(0, 0, fill_depth, {{0, 1}, {10, 1}}, false)};
   OrderState state;
   order(layer, state, {});
   EXPECT_EQ(layer.paths[0].start(), (Vec2{0, 0}));
@@ -115,7 +122,8 @@ TEST(PlainOrder, PrintsSkirtAndPrimeLinesFirst) {
   OrderState state;
   order(layer, state, {});
   EXPECT_EQ(layer.paths.front().island, -1);
-  const auto second = std::find_if(layer.paths.begin(), layer.paths.end(), [](const Path& p) { return p.extruder == 1; });
+  const auto second =
+      std::find_if(layer.paths.begin(), layer.paths.end(), [](const Path& p) { return p.extruder == 1; });
   EXPECT_EQ(second->island, -1);
 }
 

@@ -42,7 +42,9 @@ TEST(Seam, NearestPrefersAnInnerCornerToAFlatSpot) {
   EXPECT_EQ(seam(notched, SeamPosition::nearest, {7, 17}), (Vec2{10, 15}));
 }
 
-TEST(Seam, RearIsTheLargestY) { EXPECT_NEAR(seam(circle({5, 5}, 10), SeamPosition::rear).y, 15, 0.03); }
+TEST(Seam, RearIsTheLargestY) {
+  EXPECT_NEAR(seam(circle({5, 5}, 10), SeamPosition::rear).y, 15, 0.03);
+}
 
 TEST(Seam, AlignedStaysInOneLineUpACylinder) {
   SeamMemory memory;
@@ -74,7 +76,8 @@ TEST(Seam, RandomIsSpreadOverTheLoopAndTheSameInEveryRun) {
 }
 
 TEST(Seam, NeverChangesTheLoopItself) {
-  for (const SeamPosition position : {SeamPosition::nearest, SeamPosition::aligned, SeamPosition::rear, SeamPosition::random}) {
+  for (const SeamPosition position :
+       {SeamPosition::nearest, SeamPosition::aligned, SeamPosition::rear, SeamPosition::random}) {
     SeamMemory memory;
     memory.below = {{{10, 0.1}}};  // on the middle of a side: aligned puts a new point there
     const Path turned = seamed(square, position, {3, 3}, memory, 5);

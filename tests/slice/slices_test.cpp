@@ -30,7 +30,8 @@ Mesh cylinder(int sides, double radius, double height) {
   const auto n = std::uint32_t(sides);
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t a = 1 + i, b = 1 + (i + 1) % n, top = n + 1;
-    mesh.triangles.insert(mesh.triangles.end(), {{0, b, a}, {top, top + a, top + b}, {a, b, top + b}, {a, top + b, top + a}});
+    mesh.triangles.insert(mesh.triangles.end(),
+                          {{0, b, a}, {top, top + a, top + b}, {a, b, top + b}, {a, top + b, top + a}});
   }
   return mesh;
 }
@@ -50,10 +51,13 @@ TEST(Slabs, BeginWithTheFirstLayerAndGrowByConstantSteps) {
   const auto layers = slabs(10, 0.35, 0.3);
   EXPECT_DOUBLE_EQ(layers[0].print_z_mm, 0.35);
   EXPECT_DOUBLE_EQ(layers[0].height_mm, 0.35);
-  for (std::size_t i = 1; i < layers.size(); ++i) EXPECT_NEAR(layers[i].print_z_mm - layers[i - 1].print_z_mm, 0.3, 1e-9);
+  for (std::size_t i = 1; i < layers.size(); ++i)
+    EXPECT_NEAR(layers[i].print_z_mm - layers[i - 1].print_z_mm, 0.3, 1e-9);
 }
 
-TEST(Slabs, OfSomethingFlatterThanHalfALayerAreNone) { EXPECT_TRUE(slabs(0.1, 0.3, 0.3).empty()); }
+TEST(Slabs, OfSomethingFlatterThanHalfALayerAreNone) {
+  EXPECT_TRUE(slabs(0.1, 0.3, 0.3).empty());
+}
 
 TEST(CrossSection, OfACubeAtItsBottomAndTopIsItsSquare) {
   const Mesh cube = box_mesh({0, 0, 5}, {20, 20, 25});
@@ -83,8 +87,8 @@ TEST(CrossSection, TakesATriangleThatTouchesThePlaneOnce) {
     mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
     return PlaneCuts(mesh, std::vector<double>{20.0}).rings(0);
   };
-  EXPECT_TRUE(edges(20, 15, 10).empty());     // one corner from below: nothing
-  EXPECT_EQ(edges(20, 20, 20).size(), 1u);    // the top face: taken just below
+  EXPECT_TRUE(edges(20, 15, 10).empty());   // one corner from below: nothing
+  EXPECT_EQ(edges(20, 20, 20).size(), 1u);  // the top face: taken just below
   EXPECT_EQ(edges(28, 20, 30).size(), 1u);
   for (const auto& ring : edges(22, 20, 20)) EXPECT_EQ(ring.size(), 3u);
 }
@@ -123,9 +127,11 @@ TEST(Slices, OfTwoColoursThatShareACurvedFaceTouchWithoutGapOrOverlap) {
 }
 
 TEST(Slices, RefuseAWideOverlapAndSayWhereAndWhatToDo) {
-  const Part parts[] = {part(box_mesh({0, 0, 0}, {20, 20, 20}), 0, "left.stl"), part(box_mesh({15, 0, 0}, {35, 20, 20}), 1, "right.stl")};
+  const Part parts[] = {part(box_mesh({0, 0, 0}, {20, 20, 20}), 0, "left.stl"),
+                        part(box_mesh({15, 0, 0}, {35, 20, 20}), 1, "right.stl")};
   const std::string text = refusal([&] { slices(parts, {.extruders = 2}); });
-  for (const char* word : {"left.stl", "right.stl", "100.00 mm2", "--overlap", "extruder 2"}) EXPECT_TRUE(says(text, word));
+  for (const char* word : {"left.stl", "right.stl", "100.00 mm2", "--overlap", "extruder 2"})
+    EXPECT_TRUE(says(text, word));
 }
 
 TEST(Slices, GiveAWideOverlapToTheOneThatWasAskedFor) {
@@ -152,7 +158,8 @@ TEST(Slices, MendANarrowOverlapWithAWarning) {
 
 TEST(Slices, AcceptASharedFaceAndAGapOfAMicrometreInSilence) {
   for (const double gap : {0.0, 0.001}) {
-    const Part parts[] = {part(box_mesh({0, 0, 0}, {20, 20, 20}), 0), part(box_mesh({20 + gap, 0, 0}, {40, 20, 20}), 1)};
+    const Part parts[] = {part(box_mesh({0, 0, 0}, {20, 20, 20}), 0),
+                          part(box_mesh({20 + gap, 0, 0}, {40, 20, 20}), 1)};
     Warnings warnings;
     slices(parts, {.extruders = 2}, warnings.progress);
     EXPECT_EQ(warnings.all(), "");

@@ -7,14 +7,17 @@
 namespace cleancolor {
 namespace {
 
-double degrees(double rad) { return rad * 180 / std::numbers::pi; }
+double degrees(double rad) {
+  return rad * 180 / std::numbers::pi;
+}
 
 Polygons turned(const Polygons& region, double angle_rad) {
   Polygons result = region;
   for (Ring& ring : result)
     for (Point& p : ring) {
       const Vec2 v = to_mm(p);
-      p = to_nm({v.x * std::cos(angle_rad) - v.y * std::sin(angle_rad), v.x * std::sin(angle_rad) + v.y * std::cos(angle_rad)});
+      p = to_nm({v.x * std::cos(angle_rad) - v.y * std::sin(angle_rad),
+                 v.x * std::sin(angle_rad) + v.y * std::cos(angle_rad)});
     }
   return result;
 }

@@ -18,7 +18,9 @@ Layer one_second(Role role = Role::perimeter, int index = 5) {
   return layer;
 }
 
-double speed(const Layer& layer) { return layer.paths[0].road().speed_mm_s; }
+double speed(const Layer& layer) {
+  return layer.paths[0].road().speed_mm_s;
+}
 
 TEST(Cooling, SlowsALayerUntilItLastsLongEnough) {
   Config config = plain_config();
@@ -62,7 +64,10 @@ TEST(Cooling, RunsTheFanByTheTimeOfTheLayer) {
   e.max_fan_speed_percent = 80;
   e.slowdown_below_layer_time_s = 0.5;
   e.fan_below_layer_time_s = 1.5;
-  const auto fan = [&](Layer layer) { cool(layer, config); return layer.fan_by_extruder[0]; };
+  const auto fan = [&](Layer layer) {
+    cool(layer, config);
+    return layer.fan_by_extruder[0];
+  };
   EXPECT_NEAR(fan(one_second()), 0.5, 1e-9);  // half way between
   e.slowdown_below_layer_time_s = 2;
   EXPECT_NEAR(fan(one_second()), 0.8, 1e-9);

@@ -14,13 +14,17 @@ namespace {
 constexpr double spacing = 0.3356;
 
 std::vector<Path> fill_of(const Polygons& region, FillPattern pattern, double density, double z = 1) {
-  return filled(region, {.pattern = pattern, .density = density, .angle_rad = std::numbers::pi / 4, .z_mm = z, .spacing_mm = spacing},
-                plain_roads().internal_infill);
+  return filled(
+      region,
+      {.pattern = pattern, .density = density, .angle_rad = std::numbers::pi / 4, .z_mm = z, .spacing_mm = spacing},
+      plain_roads().internal_infill);
 }
 
 const auto all_patterns = {FillPattern::rectilinear, FillPattern::grid, FillPattern::gyroid, FillPattern::concentric};
 
-Polygons keyhole() { return difference(united(nested_squares({40}), rectangle({40, 15}, {60, 25})), rectangle({10, 10}, {25, 30})); }
+Polygons keyhole() {
+  return difference(united(nested_squares({40}), rectangle({40, 15}, {60, 25})), rectangle({10, 10}, {25, 30}));
+}
 
 TEST(Fill, NeverLeavesTheRegion) {
   for (const FillPattern pattern : all_patterns)
@@ -50,7 +54,8 @@ TEST(Fill, LaysAsMuchLineAsTheDensityAsks) {
                                           .z_mm = i * 2.44 * spacing / density / 12,
                                           .spacing_mm = spacing,
                                           .max_link_mm = 0},
-                                         plain_roads().internal_infill)) / 12;
+                                         plain_roads().internal_infill)) /
+                  12;
       EXPECT_NEAR(length * spacing / area, density, density * 0.06);
     }
 }
@@ -71,7 +76,8 @@ TEST(Fill, LinesLieAtTheSamePlacesInEveryIsland) {
   // Two islands of one region: sparse lines must be collinear, so that layers stack on each other.
   const auto offsets_at = [](const Polygons& region) {
     std::vector<double> offsets;
-    for (const Path& path : filled(region, {.density = 0.2, .spacing_mm = spacing, .max_link_mm = 0}, plain_roads().internal_infill))
+    for (const Path& path :
+         filled(region, {.density = 0.2, .spacing_mm = spacing, .max_link_mm = 0}, plain_roads().internal_infill))
       offsets.push_back(std::remainder(path.points[0].y, spacing / 0.2));
     return offsets;
   };
@@ -111,7 +117,9 @@ TEST(Linked, JoinsNeighboursInZigzag) {
   EXPECT_EQ(paths[0], (std::vector<Vec2>{{2, 0}, {2, 10}, {5, 10}, {5, 0}, {8, 0}, {8, 10}}));
 }
 
-TEST(Linked, LeavesLinesApartThatAreTooFar) { EXPECT_EQ(three_lines_linked(2.9).size(), 3u); }
+TEST(Linked, LeavesLinesApartThatAreTooFar) {
+  EXPECT_EQ(three_lines_linked(2.9).size(), 3u);
+}
 
 TEST(Linked, NeverClosesARing) {
   // Long links allow going round the corners; still every line is in exactly one open path.

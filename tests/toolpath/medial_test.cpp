@@ -24,7 +24,8 @@ TEST(MedialRoads, FollowAStripFromEndToEnd) {
 TEST(MedialRoads, CloseAroundARing) {
   const auto circle = [](double r) {
     Ring ring;
-    for (int i = 0; i < 180; ++i) ring.push_back(to_nm({r * std::cos(i * std::numbers::pi / 90), r * std::sin(i * std::numbers::pi / 90)}));
+    for (int i = 0; i < 180; ++i)
+      ring.push_back(to_nm({r * std::cos(i * std::numbers::pi / 90), r * std::sin(i * std::numbers::pi / 90)}));
     return Polygons{ring};
   };
   const auto paths = roads_through(difference(circle(10.3), circle(9.7)));

@@ -37,7 +37,9 @@ void expect_same_roads(const Path& path) {
   EXPECT_DOUBLE_EQ(volume_mm3(path), 7 * 1 + 7 * 10);
 }
 
-TEST(Path, LengthAndVolumeCountEveryStretch) { expect_same_roads(two_part_loop()); }
+TEST(Path, LengthAndVolumeCountEveryStretch) {
+  expect_same_roads(two_part_loop());
+}
 
 TEST(StartedAt, TurnsTheRoadsWithThePoints) {
   for (std::size_t first = 0; first < 4; ++first) {

@@ -10,8 +10,9 @@ namespace {
 std::vector<Path> loops_of(const Polygons& region, int count, bool external_first = false) {
   std::vector<Path> loops;
   for (const Island& island : islands(region)) {
-    Shell shell = perimeters(island, {}, plain_roads(),
-                             {.count = count, .external_first = external_first, .thin_walls = false, .gap_fill = false});
+    Shell shell =
+        perimeters(island, {}, plain_roads(),
+                   {.count = count, .external_first = external_first, .thin_walls = false, .gap_fill = false});
     for (Path& path : shell.paths) loops.push_back(std::move(path));
   }
   return loops;
@@ -56,7 +57,8 @@ TEST(Perimeters, OutlinesRunCounterclockwise) {
 }
 
 TEST(Perimeters, LeaveTheInfillARegionThatReachesUnderTheInnermostLoop) {
-  const Shell shell = perimeters(square_island(20), {}, plain_roads(), {.count = 2, .thin_walls = false, .gap_fill = false});
+  const Shell shell =
+      perimeters(square_island(20), {}, plain_roads(), {.count = 2, .thin_walls = false, .gap_fill = false});
   // Half a spacing inside the inner loop's line, less a quarter of a spacing of overlap.
   const double side = 20 - 2 * (0.2 + 0.3356 + 0.3356 / 4);
   EXPECT_NEAR(area_mm2(shell.fill), side * side, 0.01);

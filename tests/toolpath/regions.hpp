@@ -22,9 +22,13 @@ inline Config plain_config(int extruders = 1) {
   return config;
 }
 
-inline Roads plain_roads() { return roads(plain_config(), 0, 1, {0.6, 0.3}); }
+inline Roads plain_roads() {
+  return roads(plain_config(), 0, 1, {0.6, 0.3});
+}
 
-inline Island square_island(double side) { return {rectangle({0, 0}, {side, side}).front(), {}}; }
+inline Island square_island(double side) {
+  return {rectangle({0, 0}, {side, side}).front(), {}};
+}
 
 /// Squares with square holes, in the middle of each other: side lengths from the outside in.
 inline Polygons nested_squares(const std::vector<double>& sides) {

@@ -11,7 +11,9 @@ std::vector<std::vector<Polygons>> layers(int count, const std::vector<Polygons>
   return std::vector<std::vector<Polygons>>(std::size_t(count), regions);
 }
 
-double solid_area(const FillAreas& a) { return area_mm2(a.top) + area_mm2(a.bottom) + area_mm2(a.bridge) + area_mm2(a.solid); }
+double solid_area(const FillAreas& a) {
+  return area_mm2(a.top) + area_mm2(a.bottom) + area_mm2(a.bridge) + area_mm2(a.solid);
+}
 
 TEST(Skins, OfACubeAreItsFirstAndLastThreeLayers) {
   const Slices cube = slices_of(layers(20, {nested_squares({20})}));
