@@ -72,6 +72,7 @@ class Print {
  public:
   Print(const SliceRequest& request, const Slices& slices, PrintInfo info, Sink sink, const Progress& progress)
       : config_(request.config),
+        first_file_(request.files.front().path.filename().string()),
         slices_(slices),
         info_(std::move(info)),
         sink_(std::move(sink)),
@@ -103,7 +104,9 @@ class Print {
     PrintFigures figures = writer_->finish();
     const bool nothing =
         std::all_of(coverage_.begin(), coverage_.end(), [](const Coverage& c) { return c.lost_mm2 >= c.all_mm2; });
-    if (nothing) throw Error("every wall is too thin to print: nothing would come out; is the model's scale right?");
+    if (nothing)
+      throw Error(fmt::format(
+          "{}: every wall is too thin to print: nothing would come out; is the model's scale right?", first_file_));
     return figures;
   }
 
@@ -167,6 +170,7 @@ class Print {
   }
 
   const Config& config_;
+  const std::string first_file_;  // for messages
   const Slices& slices_;
   PrintInfo info_;
   Sink sink_;

@@ -154,9 +154,9 @@ Slices slices(std::span<const Part> parts, const SliceOptions& options, const Pr
   Slices result{slabs(top_mm, options.first_layer_height_mm, options.layer_height_mm), {}, {}};
   if (result.slabs.empty())
     throw Error(
-        fmt::format("the model is {:.3f} mm high, less than half the first layer ({} mm): nothing would be "
+        fmt::format("{}: the model is {:.3f} mm high, less than half the first layer ({} mm): nothing would be "
                     "printed; scale it (files in metres or inches?) or choose a smaller first_layer_height",
-                    top_mm, options.first_layer_height_mm));
+                    parts.front().name, top_mm, options.first_layer_height_mm));
 
   std::vector<double> planes;
   for (const Slab& slab : result.slabs) planes.push_back(slab.slice_z_mm());
