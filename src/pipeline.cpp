@@ -67,12 +67,17 @@ std::vector<std::optional<LayerRange>> extruder_use(const Slices& slices) {
   return use;
 }
 
+Error too_thin(const SliceRequest& request) {
+  return Error(fmt::format("{}: every wall is too thin to print: nothing would come out; is the model's scale right?",
+                           request.files.front().path.filename().string()));
+}
+
 /// The layers of one print on their way from regions to G-code; each stage owns its slot of each layer.
 class Print {
  public:
   Print(const SliceRequest& request, const Slices& slices, PrintInfo info, Sink sink, const Progress& progress)
       : config_(request.config),
-        first_file_(request.files.front().path.filename().string()),
+        request_(request),
         slices_(slices),
         info_(std::move(info)),
         sink_(std::move(sink)),
@@ -83,6 +88,7 @@ class Print {
     std::vector<int> used;
     for (std::size_t e = 0; e < info_.use.size(); ++e)
       if (info_.use[e]) used.push_back(int(e));
+    if (used.empty()) throw too_thin(request);
     bed_ = bed_paths(slices, used, config_, progress);
     // All nozzles that print at all are primed in the first layer.
     for (const Path& path : bed_.front())
@@ -104,9 +110,7 @@ class Print {
     PrintFigures figures = writer_->finish();
     const bool nothing =
         std::all_of(coverage_.begin(), coverage_.end(), [](const Coverage& c) { return c.lost_mm2 >= c.all_mm2; });
-    if (nothing)
-      throw Error(fmt::format(
-          "{}: every wall is too thin to print: nothing would come out; is the model's scale right?", first_file_));
+    if (nothing) throw too_thin(request_);
     return figures;
   }
 
@@ -170,7 +174,7 @@ class Print {
   }
 
   const Config& config_;
-  const std::string first_file_;  // for messages
+  const SliceRequest& request_;
   const Slices& slices_;
   PrintInfo info_;
   Sink sink_;

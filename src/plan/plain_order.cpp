@@ -64,7 +64,9 @@ class Orderer {
   void print_island(std::vector<Path> paths) {
     // Perimeters by depth, the innermost first; what has no depth is infill and comes last.
     const bool out_first = config_.external_perimeters_first;
-    const auto rank = [&](const Path& p) { return p.depth == fill_depth ? fill_depth : out_first ? p.depth : -p.depth; };
+    const auto rank = [&](const Path& p) {
+      return p.depth == fill_depth ? fill_depth : out_first ? p.depth : -p.depth;
+    };
     std::stable_sort(paths.begin(), paths.end(), [&](const Path& a, const Path& b) { return rank(a) < rank(b); });
     for (auto from = paths.begin(); from != paths.end();) {
       const int depth = from->depth;
@@ -97,6 +99,8 @@ class Orderer {
 
 }  // namespace
 
-void order(Layer& layer, OrderState& state, const Config& config) { Orderer(layer, state, config).run(); }
+void order(Layer& layer, OrderState& state, const Config& config) {
+  Orderer(layer, state, config).run();
+}
 
 }  // namespace cleancolor

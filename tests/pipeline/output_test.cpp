@@ -71,12 +71,15 @@ TEST(Output, InAFolderThatDoesNotExistIsASystemError) {
   EXPECT_EQ(files_in(folder), std::vector<std::string>{"cube.stl"});
 }
 
-TEST(Output, OfWallsTooThinToPrintIsRefusedByTheNameOfTheFile) {
+TEST(Output, OfWallsTooThinToPrintIsNotThereAndTheFileIsNamed) {
   const TestFolder folder;
-  const auto stl = stl_file(folder, "foil.stl", box_mesh({0, 0, 0}, {20, 0.02, 20}));
-  EXPECT_ERROR(slice(request_for({stl}, config_of({.printer = "generic"}), folder.path("out.gcode"))),
-               "foil.stl: every wall is too thin to print");
-  EXPECT_EQ(files_in(folder), std::vector<std::string>{"foil.stl"});
+  for (const double wall_mm : {0.001, 0.02, 0.05}) {  // the first ones are gone before there is a region to print
+    SCOPED_TRACE(wall_mm);
+    const auto stl = stl_file(folder, "foil.stl", box_mesh({0, 0, 0}, {20, wall_mm, 20}));
+    EXPECT_ERROR(slice(request_for({stl}, config_of({.printer = "generic"}), folder.path("out.gcode"))),
+                 "foil.stl: every wall is too thin to print");
+    EXPECT_EQ(files_in(folder), std::vector<std::string>{"foil.stl"});
+  }
 }
 
 TEST(Output, OnAFullDiscIsASystemErrorAndLeavesNothing) {
