@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace cleancolor {
 namespace {
@@ -13,6 +14,46 @@ double distance_to(const Path& path, Vec2 p) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vec2 q : path.points) least = std::min(least, length_squared(q - p));
   return least;
+}
+
+bool is_loop(const Path& path) {
+  return path.depth != fill_depth;
+}
+
+/// Squared distance from p to the nearest place of the path.
+double distance_to_line(const Path& path, Vec2 p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < path.segments(); ++i) {
+    const Vec2 a = path.points[i], ab = path.points[(i + 1) % path.points.size()] - a;
+    const double squared = length_squared(ab);
+    const double t = squared > 0 ? std::clamp(dot(p - a, ab) / squared, 0.0, 1.0) : 0;
+    least = std::min(least, length_squared(p - (a + ab * t)));
+  }
+  return least;
+}
+
+/// For each loop the one that lies next to it on the side of the outline: the nearest of those a step less deep, as
+/// seen from its first point; -1 where there is none.
+std::vector<int> outer_loops(const std::vector<Path>& paths) {
+  std::map<int, std::vector<int>> by_depth;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    if (is_loop(paths[i])) by_depth[paths[i].depth].push_back(int(i));
+  std::vector<int> result(paths.size(), -1);
+  for (const auto& [depth, loops] : by_depth) {
+    const auto outside = by_depth.find(depth - 1);
+    if (outside == by_depth.end()) continue;
+    for (const int i : loops) {
+      const auto distance = [&](int k) {
+        return distance_to_line(paths[std::size_t(k)], paths[std::size_t(i)].start());
+      };
+      const std::vector<int>& around = outside->second;
+      result[std::size_t(i)] =
+          around.size() == 1 ? around.front() : *std::min_element(around.begin(), around.end(), [&](int a, int b) {
+            return distance(a) < distance(b);
+          });
+    }
+  }
+  return result;
 }
 
 /// [extruder][island]; std::map keeps both in their order.
@@ -62,22 +103,29 @@ class Orderer {
   }
 
   void print_island(std::vector<Path> paths) {
-    // Perimeters by depth, the innermost first; what has no depth is infill and comes last.
+    // How many paths each one waits for: a loop for those within it, or for the one around it; a fill for all loops.
+    const std::vector<int> outer = outer_loops(paths);
     const bool out_first = config_.external_perimeters_first;
-    const auto rank = [&](const Path& p) {
-      return p.depth == fill_depth ? fill_depth : out_first ? p.depth : -p.depth;
-    };
-    std::stable_sort(paths.begin(), paths.end(), [&](const Path& a, const Path& b) { return rank(a) < rank(b); });
-    for (auto from = paths.begin(); from != paths.end();) {
-      const int depth = from->depth;
-      const auto to = std::find_if(from, paths.end(), [&](const Path& p) { return p.depth != depth; });
-      for (; from != to; ++from) {
-        const auto nearest = std::min_element(from, to, [&](const Path& a, const Path& b) {
-          return distance_to(a, state_.at) < distance_to(b, state_.at);
-        });
-        std::iter_swap(from, nearest);
-        print(std::move(*from));
+    std::vector<int> waits(paths.size(), 0);
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      if (outer[i] >= 0) ++waits[out_first ? i : std::size_t(outer[i])];
+    int loops = int(std::count_if(paths.begin(), paths.end(), is_loop));
+    std::vector<std::size_t> rest(paths.size());
+    std::iota(rest.begin(), rest.end(), std::size_t{0});
+    while (!rest.empty()) {
+      auto next = rest.end();
+      double least = std::numeric_limits<double>::infinity();
+      for (auto it = rest.begin(); it != rest.end(); ++it) {
+        if (is_loop(paths[*it]) ? waits[*it] > 0 : loops > 0) continue;
+        const double d = distance_to(paths[*it], state_.at);
+        if (d < least) least = d, next = it;
       }
+      const std::size_t i = *next;
+      rest.erase(next);
+      if (is_loop(paths[i])) --loops;
+      for (std::size_t k = 0; k < paths.size(); ++k)
+        if (out_first ? outer[k] == int(i) : outer[i] == int(k)) --waits[k];
+      print(std::move(paths[i]));
     }
   }
 
