@@ -4,6 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -38,7 +39,9 @@ class TestFolder {
  public:
   TestFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string("cleancolor_") + test->test_suite_name() + "_" + test->name();
+    // With the process id: the same test may run in two build directories at once.
+    std::string name =
+        std::string("cleancolor_") + test->test_suite_name() + "_" + test->name() + "_" + std::to_string(::getpid());
     for (char& c : name)
       if (c == '/') c = '_';  // in the names of parameterised tests
     path_ = std::filesystem::temp_directory_path() / name;

@@ -18,6 +18,8 @@ namespace {
 constexpr double tolerated_overlap_mm = 0.05;
 // What is left of exact borders after rounding to the grid. Nothing smaller is an overlap at all.
 constexpr double rounding_area_mm2 = 1e-4;
+// So much of a sound model may overlap after its contours were simplified. Not worth a word.
+constexpr double simplified_overlap_share = 2e-5;
 
 /// What went wrong in one layer; the layers are put together afterwards, so that messages do not depend on threads.
 struct Finding {
@@ -114,9 +116,11 @@ void report(std::span<const Part> parts, const Slices& slices, const std::vector
                   "; cut the parts apart in the modeller, or say which one has the place: --overlap first or last");
     progress.warn(fmt::format("{}: given to the {}", where, rule == Overlap::first ? "first" : "last"));
   }
-  double mended = 0;
+  double mended = 0, printed = 0;
   for (const Finding& f : findings) mended += f.mended_overlap_mm3;
-  if (mended > 0.01)
+  for (std::size_t k = 0; k < slices.slabs.size(); ++k)
+    printed += area_mm2(slices.outlines[k]) * slices.slabs[k].height_mm;
+  if (mended > simplified_overlap_share * printed)
     progress.warn(fmt::format("parts overlap by less than {} mm, {:.2f} mm3 in all: given to the first",
                               tolerated_overlap_mm, mended));
 

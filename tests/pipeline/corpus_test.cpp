@@ -59,7 +59,9 @@ void expect_inside_the_model(const Printed& printed, const std::vector<Box<Vec3>
     ASSERT_LE(r.z, box.max.z + layer_mm) << at(r);
     ASSERT_GE(r.z, box.min.z) << at(r);
     const Box<Vec2> shadow{{box.min.x, box.min.y}, {box.max.x, box.max.y}};
-    ASSERT_TRUE(contains(shadow, r.from, 0.01) && contains(shadow, r.to, 0.01)) << at(r);
+    // Half a road beyond its middle lies its edge; contours and paths were each simplified by some hundredths.
+    const double margin_mm = 0.03 - r.width_mm / 2;
+    ASSERT_TRUE(contains(shadow, r.from, margin_mm) && contains(shadow, r.to, margin_mm)) << at(r);
   }
 }
 
@@ -90,6 +92,10 @@ TEST_P(Corpus, SlicesWithinBedAndModelOrIsRefusedAsListed) {
   expect_inside_the_model(printed, boxes, model.layer_mm);
   expect_filament_as_said(printed, result);
   for (std::size_t e = 0; e < boxes.size(); ++e) EXPECT_EQ(printed.filament_mm[e] > 0, !boxes[e].empty());
+  const bool is_exact = model.files.front().starts_with("paper/");  // parts share faces and do not overlap
+  if (is_exact) {
+    EXPECT_EQ(result.warnings.find("overlap"), std::string::npos) << result.warnings;
+  }
   EXPECT_EQ(int(printed.layer_z_mm.size()), result.summary.layers);
   EXPECT_EQ(int(printed.tools.size()), result.summary.tool_changes + 1);
 }
