@@ -89,11 +89,12 @@ class Print {
     for (std::size_t e = 0; e < info_.use.size(); ++e)
       if (info_.use[e]) used.push_back(int(e));
     if (used.empty()) throw too_thin(request);
+    if (slices.outlines.front().empty())
+      throw Error(fmt::format("{}: nothing of the model is left in the first layer (z = {:.2f} mm): it stands on a tip or an "
+                              "edge; turn it so that it lies flat, or cut a little off",
+                              request.files.front().path.filename().string(), slices.slabs.front().slice_z_mm()));
     bed_ = bed_paths(slices, used, config_, progress);
-    // All nozzles that print at all are primed in the first layer.
-    for (const Path& path : bed_.front())
-      if (path.island < 0) info_.use[std::size_t(path.extruder)]->first = 0;
-    state_.extruder = used.front();
+    state_.extruder = info_.initial_extruder = used.front();
     coverage_.resize(info_.use.size());
   }
 
@@ -198,7 +199,11 @@ Summary summary_of(const PrintFigures& figures) {
 
 Summary slice(const SliceRequest& request, const Progress& progress) {
   const std::vector<Part> parts = parts_of(request, progress);
-  if (!request.preview.empty()) write_file(request.preview, picture(parts, request.config, 1024, 768));
+  std::optional<OutputFile> preview;
+  if (!request.preview.empty()) {
+    preview.emplace(request.preview);
+    preview->write(picture(parts, request.config, 1024, 768));
+  }
 
   progress.advance("slicing", 0);
   const Slices layers = slices(parts, slice_options(request), progress);
@@ -209,11 +214,15 @@ Summary slice(const SliceRequest& request, const Progress& progress) {
                  .use = extruder_use(layers),
                  .first_layer_box_mm = {},
                  .thumbnails = thumbnails(parts, request.config)};
+  for (const Part& part : parts)
+    if (!info.use[std::size_t(*part.extruder)])
+      progress.warn(fmt::format("{}: too thin everywhere, nothing of it is printed", part.name));
 
   OutputFile file(request.output);
   Print print(request, layers, std::move(info), to_file(file), progress);
   const PrintFigures figures = print.run(thread_count(request.threads));
   file.commit();
+  if (preview) preview->commit();
   return summary_of(figures);
 }
 

@@ -20,6 +20,11 @@ bool is_loop(const Path& path) {
   return path.depth != fill_depth;
 }
 
+/// Squared distance from p to the box; 0 inside.
+double distance_to(const Box<Vec2>& box, Vec2 p) {
+  return length_squared(p - Vec2{std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)});
+}
+
 /// Squared distance from p to the nearest place of the path.
 double distance_to_line(const Path& path, Vec2 p) {
   double least = std::numeric_limits<double>::infinity();
@@ -91,12 +96,19 @@ class Orderer {
       for (Path& path : bed->second) print(std::move(path));
       islands.erase(bed);
     }
+    // An island whose box is farther than the nearest path so far need not be looked at.
+    std::map<int, Box<Vec2>> boxes;
+    for (const auto& [island, paths] : islands)
+      for (const Path& path : paths)
+        for (const Vec2 p : path.points) boxes[island].add(p);
     while (!islands.empty()) {
       auto nearest = islands.begin();
       double least = std::numeric_limits<double>::infinity();
-      for (auto it = islands.begin(); it != islands.end(); ++it)
+      for (auto it = islands.begin(); it != islands.end(); ++it) {
+        if (distance_to(boxes[it->first], state_.at) >= least) continue;
         for (const Path& path : it->second)
           if (const double d = distance_to(path, state_.at); d < least) least = d, nearest = it;
+      }
       print_island(std::move(nearest->second));
       islands.erase(nearest);
     }

@@ -71,8 +71,13 @@ Path begun_at(Path loop, const OnLoop& place) {
 
 /// The place of the loop nearest to a seam of the layer below, else its sharpest corner.
 OnLoop aligned(const Path& loop, const std::vector<Vec2>& seams_below) {
+  Box<Vec2> box;
+  for (const Vec2 p : loop.points) box.add(p);
   OnLoop best;
   for (const Vec2 seam : seams_below) {
+    if (seam.x < box.min.x - follow_mm || seam.x > box.max.x + follow_mm || seam.y < box.min.y - follow_mm ||
+        seam.y > box.max.y + follow_mm)
+      continue;
     const OnLoop place = nearest_on(loop.points, seam);
     if (place.distance_mm < best.distance_mm) best = place;
   }
@@ -105,9 +110,11 @@ Path seamed(Path loop, SeamPosition position, Vec2 from, SeamMemory& memory, std
   if (memory.here.size() <= e) memory.here.resize(e + 1);
   const auto& points = loop.points;
   switch (position) {
-    case SeamPosition::nearest:
-      loop = started_at(std::move(loop), near_corner(points, from));
+    case SeamPosition::nearest: {
+      const std::size_t corner = near_corner(points, from);
+      loop = started_at(std::move(loop), corner);
       break;
+    }
     case SeamPosition::aligned: {
       // The place itself is remembered, not the corner near it that may be taken: else the seam would wander off.
       const OnLoop place = aligned(loop, memory.below[e]);
@@ -116,7 +123,8 @@ Path seamed(Path loop, SeamPosition position, Vec2 from, SeamMemory& memory, std
     }
     case SeamPosition::rear: {
       const auto rearmost = std::max_element(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; });
-      loop = started_at(std::move(loop), std::size_t(rearmost - points.begin()));
+      const auto corner = std::size_t(rearmost - points.begin());
+      loop = started_at(std::move(loop), corner);
       break;
     }
     case SeamPosition::random:

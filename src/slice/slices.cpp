@@ -172,6 +172,7 @@ Slices slices(std::span<const Part> parts, const SliceOptions& options, const Pr
   result.outlines.resize(planes.size());
   std::vector<Finding> findings(planes.size());
   parallel_for(int(planes.size()), options.threads, [&](int index) {
+    if (progress.interrupted()) throw Error("interrupted");
     const auto k = std::size_t(index);
     std::vector<Polygons> regions(std::size_t(options.extruders));
     for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -188,6 +189,7 @@ Slices slices(std::span<const Part> parts, const SliceOptions& options, const Pr
     result.regions[k] = std::move(regions);
   });
   parallel_for(int(planes.size()) - 1, options.threads, [&](int below) {
+    if (progress.interrupted()) throw Error("interrupted");
     const auto k = std::size_t(below) + 1;
     find_mid_air(result.outlines[k], result.outlines[k - 1], findings[k]);
   });

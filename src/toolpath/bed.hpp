@@ -22,7 +22,4 @@ namespace cleancolor {
 std::vector<std::vector<Path>> bed_paths(const Slices& slices, const std::vector<int>& used, const Config& config,
                                          const Progress& progress = {});
 
-/// Where the nozzle of an extruder reaches: extruder_printable_area, or the bed.
-Polygons reach(const Config& config, int extruder);
-
 }  // namespace cleancolor

@@ -32,7 +32,7 @@ LayerTime layer_time(Layer& layer, const Config& config) {
   LayerTime time;
   const Path* before = nullptr;
   for (Path& path : layer.paths) {
-    if (before) time.fixed_s += distance(before->end(), path.start()) / config.travel_speed_mm_s;
+    if (before) time.fixed_s += travel_mm(before->end(), path) / config.travel_speed_mm_s;
     before = &path;
     for_each_stretch(path, [&](const Road& road, double length) {
       (may_slow(road) ? time.elastic_s : time.fixed_s) += length / road.speed_mm_s;

@@ -23,6 +23,12 @@ double volume_mm3(const Path& path) {
   return sum;
 }
 
+double travel_mm(Vec2 from, const Path& path) {
+  double sum = 0;
+  for (const Vec2 p : path.travel) sum += distance(from, p), from = p;
+  return sum + distance(from, path.start());
+}
+
 Path started_at(Path path, std::size_t first) {
   assert(path.closed && first < path.points.size());
   if (first == 0) return path;

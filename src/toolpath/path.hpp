@@ -80,6 +80,9 @@ double length_mm(const Path& path);
 /// Plastic laid down, mm3, extrusion_multiplier not included.
 double volume_mm3(const Path& path);
 
+/// Length of the way from `from` to the path's start, by way of Path::travel.
+double travel_mm(Vec2 from, const Path& path);
+
 /// The same closed path begun at points[first]; stretches turn with it.  Requires: closed; first < points.size().
 Path started_at(Path path, std::size_t first);
 

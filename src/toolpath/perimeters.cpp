@@ -73,7 +73,9 @@ Polygons fill_region(const Polygons& region, const Nest& nest, const Roads& road
   if (nest.loops.size() < std::size_t(options.count)) return {};
   const double half = spacing_mm(options.count == 1 ? roads.external_perimeter : roads.perimeter) / 2;
   const double inset = half - options.infill_overlap.of(half + infill_spacing / 2);
-  return shrunk_where_room(nest.loops.back(), inset, infill_spacing * (1 - tolerated_overlap));
+  const Polygons fill = shrunk_where_room(nest.loops.back(), inset, infill_spacing * (1 - tolerated_overlap));
+  // However much overlap is asked for, infill stays within the line of the outermost loop.
+  return inset >= 0 ? fill : intersection(fill, nest.loops.front());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/edge_rows.hpp"
 #include "toolpath/bridges.hpp"
 #include "toolpath/fill.hpp"
 #include "toolpath/perimeters.hpp"
@@ -52,15 +53,15 @@ Coverage coverage(const Island& island, const Shell& shell, double nozzle_mm) {
 
 /// Gives each path the island it starts in.
 void name_islands(std::vector<Path>& paths, std::size_t first, const std::vector<Island>& islands) {
-  for (std::size_t p = first; p < paths.size(); ++p) {
-    if (islands.size() < 2) continue;
-    const Point start = to_nm(paths[p].start());
-    for (std::size_t i = 0; i < islands.size(); ++i)
-      if (contains(polygons(islands[i]), start)) {
+  if (islands.size() < 2) return;
+  std::vector<EdgeRows> regions;
+  for (const Island& island : islands) regions.emplace_back(polygons(island));
+  for (std::size_t p = first; p < paths.size(); ++p)
+    for (std::size_t i = 0; i < regions.size(); ++i)
+      if (regions[i].contains(paths[p].start())) {
         paths[p].island = int(i);
         break;
       }
-  }
 }
 
 /// Appends the fill paths of one extruder.

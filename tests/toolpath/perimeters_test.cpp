@@ -64,6 +64,14 @@ TEST(Perimeters, LeaveTheInfillARegionThatReachesUnderTheInnermostLoop) {
   EXPECT_NEAR(area_mm2(shell.fill), side * side, 0.01);
 }
 
+TEST(Perimeters, KeepInfillInsideHoweverMuchOverlapIsAskedFor) {
+  for (const int count : {1, 2}) {
+    const Shell shell = perimeters(square_island(20), {}, plain_roads(),
+                                   {.count = count, .thin_walls = false, .gap_fill = false, .infill_overlap = {10, false}});
+    EXPECT_NEAR(area_mm2(shell.fill), 19.6 * 19.6, 0.01);
+  }
+}
+
 TEST(Perimeters, OfNoneLeaveEverythingToTheInfill) {
   const Shell shell = perimeters(square_island(20), {}, plain_roads(), {.count = 0});
   EXPECT_TRUE(shell.paths.empty());
