@@ -25,13 +25,13 @@ constexpr MachineAxis jerk_z{&C::machine_max_jerk_mm_s, &Vec3::z};
 // clang-format off
 constexpr Option table[] = {
   {"printer_model", printer, "Machine", &C::printer_model, "", 0, 0, "name of the machine; a label only"},
-  {"bed_shape", printer, "Machine", &C::bed_shape_mm, "mm", -1000, 1000, "outline of the area that nozzle 0 can print on, counterclockwise"},
+  {"bed_shape", printer, "Machine", &C::bed_shape_mm, "mm", -1000, 1000, "outline of where parts can stand, in coordinates of the model, counterclockwise; nozzles on one carriage are taken to reach all of it"},
   {"max_print_height", printer, "Machine", &C::max_print_height_mm, "mm", 1, 2000, "no part may be higher"},
   {"nozzle_diameter", printer, "Machine", &E::nozzle_diameter_mm, "mm", 0.05, 5, "opening of the nozzle; the number of values is the number of extruders"},
   {"nozzle_offset", printer, "Machine", &E::nozzle_offset_mm, "mm", -1000, 1000, "where the nozzle is, seen from nozzle 0, which is at 0,0"},
   {"offsets_in", printer, "Machine", &C::offsets_in, "", 0, 0, "who makes up for nozzle_offset: the slicer subtracts it from X and Y, or the firmware knows it"},
   {"idle_nozzle", printer, "Machine", &C::idle_nozzle, "", 0, 0, "where nozzles are that do not print: hovering at the same height, lifted, parked beside the bed, or docked in a rack"},
-  {"extruder_printable_area", printer, "Machine", &E::extruder_printable_area_mm, "mm", -1000, 1000, "outline of the area that this nozzle reaches; empty: the whole bed"},
+  {"extruder_printable_area", printer, "Machine", &E::extruder_printable_area_mm, "mm", -1000, 1000, "outline of what this nozzle reaches of the bed, in coordinates of the model; empty: all of bed_shape, so say it here where the carriage does not travel further than the bed by nozzle_offset"},
   {"extruder_colour", printer, "Machine", &E::extruder_colour, "", 0, 0, "#RRGGBB, for pictures; empty: the filament's"},
   {"audit_only", printer, "Machine", &C::audit_only, "", 0, 0, "the profile is good for auditing and re-planning G-code, but not complete enough to print with"},
 

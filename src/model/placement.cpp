@@ -9,25 +9,13 @@
 
 #include "base/error.hpp"
 #include "base/polygon.hpp"
+#include "model/reach.hpp"
 
 namespace cleancolor {
 
 namespace {
 
 constexpr double rounding_mm = 0.001;  // parts may stick out this far: coordinates come from floats
-
-Polygons polygon(const std::vector<Vec2>& points_mm) {
-  Ring ring;
-  for (const Vec2& p : points_mm) ring.push_back(to_nm(p));
-  return united({area_mm2(ring) < 0 ? Ring(ring.rbegin(), ring.rend()) : ring});
-}
-
-/// What the nozzle of an extruder reaches: its own area within the bed.
-Polygons reach(const Config& config, int extruder) {
-  const Polygons bed = polygon(config.bed_shape_mm);
-  const auto& own = config.extruders[std::size_t(extruder)].extruder_printable_area_mm;
-  return own.empty() ? bed : intersection(bed, polygon(own));
-}
 
 std::set<int> extruders_of(std::span<const Part> parts) {
   std::set<int> extruders;
@@ -72,7 +60,7 @@ std::string size_text(Vec3 size) {
 /// Throws where the box of all parts is larger than the print volume.
 void require_size(const Box<Vec3>& box, const Config& config, std::span<const Part> parts) {
   const Vec3 size = box.size();
-  const Vec2 bed = bounds_mm(polygon(config.bed_shape_mm)).size();
+  const Vec2 bed = bounds_mm(bed_region(config)).size();
   const Vec3 room{bed.x, bed.y, config.max_print_height_mm};
   if (size.x <= room.x + rounding_mm && size.y <= room.y + rounding_mm && size.z <= room.z + rounding_mm) return;
   throw Error(

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "meshes.hpp"
+#include "model/reach.hpp"
 
 namespace cleancolor {
 namespace {
@@ -56,6 +57,19 @@ TEST(Place, RefusesAPartOutOfReachOfItsOwnNozzle) {
   Placement keep;
   keep.keep = true;
   EXPECT_TRUE(says(refusal([&] { place(parts, config, keep); }), "extruder 2 reaches only X 50.0"));
+}
+
+TEST(Reach, IsTheAreaOfTheNozzleWithinTheBed) {
+  Config config = dual_printer();
+  config.extruders[1].extruder_printable_area_mm = {{250, -50}, {50, -50}, {50, 60}, {250, 60}};  // clockwise
+  EXPECT_EQ(area_mm2(reach(config, 1)), 150 * 60);
+  EXPECT_EQ(bounds_mm(reach(config, 1)).max, (Vec2{200, 60}));
+}
+
+TEST(Reach, IsTheWholeBedForNozzlesOnOneCarriageThatNameNoArea) {
+  Config config = dual_printer();
+  config.extruders[1].nozzle_offset_mm = {33, 0};
+  for (const int extruder : {0, 1}) EXPECT_EQ(area_mm2(reach(config, extruder)), 200 * 100);
 }
 
 TEST(Place, RefusesWhatIsTooLargeAndSaysBothSizes) {
