@@ -137,7 +137,7 @@ void Machine::unretract() {
 
 void Machine::extrude(Vec2 to_mm, const Feed& feed) {
   Filament& f = filament();
-  assert(f.retracted_e5 == 0 && lift_um_ == 0);
+  assert(f.retracted_e5 == 0 && lift_um_ == 0 && known_ && z_known_);
   const Grid to = on_grid(to_mm);
   const double dx = double(to.x - at_.x) / 1000, dy = double(to.y - at_.y) / 1000;
   f.asked_mm += std::hypot(dx, dy) * feed.filament_per_mm;

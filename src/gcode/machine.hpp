@@ -11,8 +11,12 @@
 // Nozzles: a point given here is where the plastic lies. Where the slicer makes up for the offsets, X Y = point -
 // nozzle_offset; where the firmware does, X Y = point. A tool change moves no carriage (gcode/flavour.hpp).
 //
-// Guarantees: nothing is extruded while the filament is drawn back or the nozzle lifted; a filament drawn back is never
-// drawn back by more than asked, and comes forward by exactly what it went back (plus the extra asked for).
+// The user's code and tool changes may leave the carriage anywhere: afterwards X, Y, Z and speed are told anew. Such
+// code must leave absolute coordinates (G90) and the kind of E distances as it found them.
+//
+// Guarantees: nothing is extruded while the filament is drawn back, the nozzle lifted or its place or height unknown; a
+// filament drawn back is never drawn back by more than asked, and comes forward by exactly what it went back (plus the
+// extra asked for).
 #pragma once
 
 #include <cstdint>
@@ -34,7 +38,6 @@ class Machine {
   Vec2 position_mm() const;  // of the nozzle in use
   bool position_known() const { return known_; }
   double z_mm() const { return double(z_um_) / 1000; }
-  bool lifted() const { return lift_um_ > 0; }
 
   /// Drives straight to a point without extruding.
   void travel(Vec2 to_mm);
@@ -42,7 +45,7 @@ class Machine {
   /// The nozzle's height while it prints; where it is lifted it stays so much above.
   void set_z(double print_z_mm);
   void lift(double by_mm);
-  void lower();
+  void lower();  // to where it prints, from wherever the user's code may have left it
 
   /// Draws the filament back by length_mm in all; restart_extra_mm comes on top when it is pushed forward again.
   void retract(double length_mm, double restart_extra_mm);
@@ -53,7 +56,7 @@ class Machine {
     double filament_per_mm;     // mm of filament for one of path
     double acceleration_mm_s2;  // 0: the firmware's own
   };
-  /// Requires: not lifted, not retracted.
+  /// Requires: travelled and lowered since the last code of the user's; not retracted.
   void extrude(Vec2 to_mm, const Feed& feed);
 
   /// Makes the tool active: the user's code for the change, and the firmware's word unless the code has it already.
@@ -69,7 +72,7 @@ class Machine {
   void set_nozzle(int tool, int temperature_c, bool wait);
   void set_bed(int temperature_c, bool wait);
 
-  /// G-code of the user: afterwards position and speed are told anew.
+  /// G-code of the user.
   void custom(std::string_view gcode);
 
   /// Pushed through the nozzle so far, mm; what is drawn back and comes forward again does not count.

@@ -109,7 +109,7 @@ void GcodeWriter::Print::path(const Layer& layer, const Path& path) {
   lay_out(path, config.gcode_resolution_mm, config.seam_gap_distance.of(e.nozzle_diameter_mm), polyline);
   if (polyline.points.size() < 2) return;
   travel(path);
-  if (machine.lifted()) machine.lower();
+  machine.lower();
   machine.unretract();
 
   Machine::Feed feed{};

@@ -18,7 +18,8 @@ namespace {
 struct Replay {
   double x = 0, y = 0, z = 0, count[2] = {0, 0}, drawn_back[2] = {0, 0}, fed[2] = {0, 0};
   int tool = 0;
-  bool relative = false;
+  bool relative = false;       // of E
+  bool relative_axes = false;  // of X, Y and Z
   struct Road {
     int tool;
     Vec2 from, to;  // as in the file
@@ -35,6 +36,7 @@ Replay replayed(const std::string& text, const Config& c) {
   bool drawn_back_at_start = false;
   for (const Line& l : parsed(text)) {
     if (l.code == "M83") r.relative = true;
+    if (l.code == "G90" || l.code == "G91") r.relative_axes = l.code == "G91";
     if (l.code == "G92") r.count[0] = r.count[1] = 0;
     const bool by_word = l.code == "T0" || l.code == "T1";
     if (by_word || (l.code == "M108" && l.has('T'))) {
@@ -45,9 +47,8 @@ Replay replayed(const std::string& text, const Config& c) {
     if (l.has('F')) feed = l.words.at('F');
     const Vec2 from{r.x, r.y};
     const double z = r.z;
-    if (l.has('X')) r.x = l.words.at('X');
-    if (l.has('Y')) r.y = l.words.at('Y');
-    if (l.has('Z')) r.z = l.words.at('Z');
+    for (const auto& [axis, at] : {std::pair{'X', &r.x}, {'Y', &r.y}, {'Z', &r.z}})
+      if (l.has(axis)) *at = l.words.at(axis) + (r.relative_axes ? *at : 0);
     const auto t = std::size_t(r.tool);
     double e = 0;
     for (const char axis : {'E', 'A', 'B'})
@@ -150,6 +151,30 @@ TEST_P(WriterTest, LiftedNozzleNeverExtrudes) {
     const double layers = road.z / 0.3;
     EXPECT_NEAR(layers, std::round(layers), 1e-6) << "at z " << road.z;
   }
+}
+
+TEST_P(WriterTest, CodeOfTheUserThatMovesTheCarriageNeverMovesThePrint) {
+  for (std::string Config::* code : {&Config::toolchange_gcode, &Config::before_layer_gcode, &Config::layer_gcode})
+    for (const char* text : {"G91\nG1 Z5 F600\nG90", "G1 X7 Y-3 Z0.1 F600"})
+      for (const double lift_mm : {0.0, 0.4}) {
+        SCOPED_TRACE(text);
+        Config c = config;
+        c.*code = text;
+        for (Extruder& e : c.extruders) e.retract_lift_mm = lift_mm, e.retract_before_travel_mm = 1e6;
+        const auto layers = two_cubes(4, false);
+        const Replay r = replayed(written(c, layers).text, c);
+        std::size_t next = 0;
+        for (const Layer& layer : layers)
+          for (const Path& p : layer.paths)
+            for (std::size_t i = 0; i < p.segments(); ++i) {
+              ASSERT_LT(next, r.roads.size());
+              EXPECT_NEAR(r.roads[next].z, layer.print_z_mm, 1e-9);
+              EXPECT_NEAR(distance(r.roads[next].from, r.roads[next].to),
+                          distance(p.points[i], p.points[(i + 1) % p.points.size()]), 2e-3);
+              ++next;
+            }
+        EXPECT_EQ(next, r.roads.size());
+      }
 }
 
 TEST_P(WriterTest, ExtraPlasticAfterATravelAndAToolChangeIsPushedOnTop) {
