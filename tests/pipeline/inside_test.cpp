@@ -62,5 +62,31 @@ TEST(Inside, AFillTooSmallForALineIsNotTravelledTo) {
     EXPECT_GT(path.length_mm, 0.1) << path.role << " in layer " << path.layer;
 }
 
+TEST(FirstLayer, WithNothingInItIsRefusedAndLeavesNoFile) {
+  std::vector<Vec2> circle;
+  for (int i = 0; i < 60; ++i) circle.push_back({5 * std::cos(i * 0.10471976), 5 * std::sin(i * 0.10471976)});
+  Mesh on_its_tip = prism(circle, 0, 100);
+  for (Vec3& p : on_its_tip.vertices)
+    if (p.z == 0) p = {p.x * 1e-4, p.y * 1e-4, 0};
+  const TestFolder folder;
+  Config config = config_of({.printer = "generic", .set = {"brim_width=5"}});
+  SliceRequest request = request_for({stl_file(folder, "tip.stl", on_its_tip)}, config, folder.path("tip.gcode"));
+  request.preview = folder.path("tip.png");
+  EXPECT_ERROR(slice(request), "stands on a tip");
+  EXPECT_FALSE(std::filesystem::exists(request.output));
+  EXPECT_FALSE(std::filesystem::exists(request.preview));
+}
+
+TEST(FirstLayer, IsBegunWithTheOnlyExtruderThatPrints) {
+  const TestFolder folder;
+  const Config config = config_of({.printer = "generic-dual-marlin"});
+  SliceRequest request =
+      request_for({stl_file(folder, "cube.stl", box_mesh({0, 0, 0}, {10, 10, 2}))}, config, folder.path("cube.gcode"));
+  request.files[0].extruder = 1;
+  const Sliced result = sliced(request);
+  EXPECT_EQ(result.text.find("\nT0"), std::string::npos);
+  EXPECT_NE(result.text.find("\nT1"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace cleancolor
