@@ -23,6 +23,7 @@ double trapezoid_s(double length, double v0, double v, double v1, double acceler
 MotionTimer::MotionTimer(const MotionLimits& limits, std::function<void(double)> duration, std::size_t window)
     : limits_(limits), duration_(std::move(duration)), window_(window) {
   assert(window_ > 0);
+  assert(limits.extruding_mm_s2 > 0 && limits.travel_mm_s2 > 0 && limits.retracting_mm_s2 > 0);
   moves_.reserve(2 * window_);
 }
 

@@ -23,6 +23,7 @@ namespace cleancolor {
 
 using Axes = std::array<double, 4>;  // X, Y, Z of the carriage, E of the filament
 
+/// All > 0; jerk may be 0, and infinity means no limit.
 struct MotionLimits {
   Axes max_speed_mm_s = {500, 500, 12, 120};
   Axes max_acceleration_mm_s2 = {9000, 9000, 500, 10000};

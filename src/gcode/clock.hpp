@@ -13,6 +13,7 @@
 
 namespace cleancolor {
 
+/// The printer's limits; an acceleration of 0 along moves of one kind means no limit but those of the axes.
 MotionLimits motion_limits(const Config& config);
 
 class Clock {

@@ -25,7 +25,12 @@ std::string duration_text(double seconds) {
   return text + fmt::format("{}s", s % 60);
 }
 
-std::string progress_text(const FlavourWords& words, int percent, long minutes) {
+/// The whole part, in [0, most]; of what is no number 0.
+long whole_within(double value, long most) {
+  return long(std::fmin(std::fmax(value, 0), double(most)));
+}
+
+std::string progress_text(const FlavourWords& words, long percent, long minutes) {
   return fmt::format(fmt::runtime(words.progress), fmt::arg("percent", percent), fmt::arg("minutes", minutes));
 }
 
@@ -145,8 +150,8 @@ void GcodeWriter::Print::fill_in_progress() {
   const double total = std::max(clock.total_s(), 1e-9);
   for (const ProgressLine& line : progress) {
     const double t = clock.time_s(line.mark);
-    const int percent = std::min(99, int(100 * t / total));  // firmware may end the print at 100
-    const long minutes = std::min(99999L, std::lround((total - t) / 60));
+    const long percent = whole_within(100 * t / total, 99);  // firmware may end the print at 100
+    const long minutes = whole_within((total - t) / 60 + 0.5, 99999);
     std::string words_padded = progress_text(w, percent, minutes);
     words_padded.resize(width, ' ');
     text.patch(line.offset, words_padded);

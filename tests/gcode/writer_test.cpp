@@ -260,6 +260,36 @@ TEST(Writer, AccelerationsFollowTheRoles) {
   EXPECT_NE(text.find("M204 P1200", second), std::string::npos);
 }
 
+TEST(Writer, AccelerationOf0AlongMovesOfOneKindIsLimitedByTheAxesOnly) {
+  const auto layers = two_cubes(2, false);
+  for (double Config::* limit :
+       {&Config::machine_max_acceleration_extruding_mm_s2, &Config::machine_max_acceleration_travel_mm_s2,
+        &Config::machine_max_acceleration_retracting_mm_s2}) {
+    Config c = two_extruders(Flavour::marlin2, OffsetsIn::firmware);
+    const double limited_s = written(c, layers).figures.time_s;
+    c.*limit = 1e9;
+    const double unlimited_s = written(c, layers).figures.time_s;
+    c.*limit = 0;
+    EXPECT_NEAR(written(c, layers).figures.time_s, unlimited_s, 1e-9);
+    EXPECT_LT(unlimited_s, limited_s);
+    EXPECT_GT(unlimited_s, 0);
+  }
+}
+
+TEST(Writer, ProgressStaysWithinItsDigitsHoweverLongThePrint) {
+  Config c = two_extruders(Flavour::marlin2, OffsetsIn::firmware);
+  c.remaining_times = true;
+  auto layers = two_cubes(1, true);
+  for (const double speed_mm_s : {1e-9, 1e-308}) {  // years, and longer than a double counts
+    for (Path& p : layers[0].paths) p.stretches[0].road.speed_mm_s = speed_mm_s;
+    for (const Line& l : parsed(written(c, layers).text))
+      if (l.code == "M73") {
+        EXPECT_TRUE(l.words.at('P') >= 0 && l.words.at('P') <= 100) << l.words.at('P');
+        EXPECT_TRUE(l.words.at('R') >= 0 && l.words.at('R') <= 99999) << l.words.at('R');
+      }
+  }
+}
+
 TEST(Writer, OnlyExtrudersThatPrintAreHeated) {
   const Config c = two_extruders(Flavour::marlin2, OffsetsIn::firmware);
   std::vector<Layer> layers = two_cubes(2, true);
