@@ -38,7 +38,7 @@ void writer(benchmark::State& state) {
   std::uint64_t bytes = 0, lines = 0;
   for (auto _ : state) {
     PrintInfo info;
-    info.use = {LayerRange{0, 0}};
+    info.last_layer = {0};
     GcodeWriter w(config, info, {.write = [&](std::string_view b) { bytes += b.size(); }, .patch = [](auto, auto) {}});
     w.layer(layer);
     benchmark::DoNotOptimize(w.finish());

@@ -55,16 +55,13 @@ SliceOptions slice_options(const SliceRequest& request) {
           .threads = thread_count(request.threads)};
 }
 
-/// The layers in which each extruder prints.
-std::vector<std::optional<LayerRange>> extruder_use(const Slices& slices) {
-  std::vector<std::optional<LayerRange>> use(slices.regions.front().size());
+/// The last layer in which each extruder prints.
+std::vector<std::optional<int>> last_layers(const Slices& slices) {
+  std::vector<std::optional<int>> last(slices.regions.front().size());
   for (std::size_t k = 0; k < slices.regions.size(); ++k)
-    for (std::size_t e = 0; e < use.size(); ++e) {
-      if (slices.regions[k][e].empty()) continue;
-      if (!use[e]) use[e] = LayerRange{int(k), int(k)};
-      use[e]->last = int(k);
-    }
-  return use;
+    for (std::size_t e = 0; e < last.size(); ++e)
+      if (!slices.regions[k][e].empty()) last[e] = int(k);
+  return last;
 }
 
 Error too_thin(const SliceRequest& request) {
@@ -86,8 +83,8 @@ class Print {
         areas_(slices.slabs.size()),
         paths_(slices.slabs.size()) {
     std::vector<int> used;
-    for (std::size_t e = 0; e < info_.use.size(); ++e)
-      if (info_.use[e]) used.push_back(int(e));
+    for (std::size_t e = 0; e < info_.last_layer.size(); ++e)
+      if (info_.last_layer[e]) used.push_back(int(e));
     if (used.empty()) throw too_thin(request);
     if (slices.outlines.front().empty())
       throw Error(fmt::format("{}: nothing of the model is left in the first layer (z = {:.2f} mm): it stands on a tip or an "
@@ -95,7 +92,7 @@ class Print {
                               request.files.front().path.filename().string(), slices.slabs.front().slice_z_mm()));
     bed_ = bed_paths(slices, used, config_, progress);
     state_.extruder = info_.initial_extruder = used.front();
-    coverage_.resize(info_.use.size());
+    coverage_.resize(info_.last_layer.size());
   }
 
   PrintFigures run(int threads) {
@@ -211,11 +208,11 @@ Summary slice(const SliceRequest& request, const Progress& progress) {
                  .layer_count = int(layers.slabs.size()),
                  .max_z_mm = layers.slabs.back().print_z_mm,
                  .initial_extruder = 0,
-                 .use = extruder_use(layers),
+                 .last_layer = last_layers(layers),
                  .first_layer_box_mm = {},
                  .thumbnails = thumbnails(parts, request.config)};
   for (const Part& part : parts)
-    if (!info.use[std::size_t(*part.extruder)])
+    if (!info.last_layer[std::size_t(*part.extruder)])
       progress.warn(fmt::format("{}: too thin everywhere, nothing of it is printed", part.name));
 
   OutputFile file(request.output);

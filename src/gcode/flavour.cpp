@@ -70,7 +70,6 @@ constexpr std::array<FlavourWords, 4> all_words = {{
         .progress = "M73 P{percent}",
         .e_axes = "AB",
         .e_per_tool = true,
-        .max_tools = 2,
         .nozzle_codes = {"M104", "M109", "M133"},
         .bed_codes = {"M140", "M190", "M134"},
         .tool_codes = {"T{tool}", "M108 T{tool}", "M135 T{tool}"},

@@ -32,11 +32,10 @@ struct FlavourWords {
   std::string_view wait_bed;
   std::string_view fan_on;  // {value} in 0..255
   std::string_view fan_off;
-  std::string_view acceleration;  // {value} in mm/s2, of printing moves
-  std::string_view progress;      // {percent} {minutes} to go
-  std::string_view e_axes;        // the letter of each tool's filament; one letter: of all
-  bool e_per_tool = false;        // every tool has a count of its own, never set back; always absolute
-  int max_tools = 16;
+  std::string_view acceleration;                 // {value} in mm/s2, of printing moves
+  std::string_view progress;                     // {percent} {minutes} to go
+  std::string_view e_axes;                       // the letter of each tool's filament; one letter: of all
+  bool e_per_tool = false;                       // every tool has a count of its own, never set back; always absolute
   std::array<std::string_view, 3> nozzle_codes;  // start code with one of these heats nozzles itself,
   std::array<std::string_view, 3> bed_codes;     // with one of these the bed
   std::array<std::string_view, 3> tool_codes;    // templates with a line that begins so change the tool themselves

@@ -80,7 +80,7 @@ void GcodeWriter::Print::set_print_placeholders(const Layer& first) {
   placeholders.set("first_layer_print_max", std::array{box.max.x, box.max.y});
   placeholders.set("first_layer_print_size", std::array{box.size().x, box.size().y});
   std::vector<double> used;
-  for (const auto& use : info.use) used.push_back(use ? 1 : 0);
+  for (const auto& last : info.last_layer) used.push_back(last ? 1 : 0);
   placeholders.set("is_extruder_used", used);
 }
 
@@ -101,7 +101,7 @@ void GcodeWriter::Print::start(const Layer& first) {
   const Extruder& initial = config.extruders[std::size_t(info.initial_extruder)];
   std::vector<int> to_heat;
   for (std::size_t t = 0; t < config.extruders.size(); ++t)
-    if (info.use[t] && !heats_nozzle(config.start_gcode, code, w, int(t), info.initial_extruder))
+    if (info.last_layer[t] && !heats_nozzle(config.start_gcode, code, w, int(t), info.initial_extruder))
       to_heat.push_back(int(t));
   const bool heat_bed = initial.first_layer_bed_temperature_c > 0 && !heats_bed(config.start_gcode, code, w);
   machine.set_fan(0);

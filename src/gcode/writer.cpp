@@ -10,7 +10,6 @@
 #include <numbers>
 #include <span>
 
-#include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "gcode/print.hpp"
 
@@ -60,15 +59,11 @@ GcodeWriter::Print::Print(const Config& c, PrintInfo i, Sink sink)
       clock(motion_limits(config)),
       machine(config, text, clock),
       placeholders(config) {
-  assert(info.use.size() == config.extruders.size());
-  for (const auto& use : info.use) heated.push_back(use.has_value());
+  assert(info.last_layer.size() == config.extruders.size());
+  assert(!words(config.gcode_flavor).e_per_tool || config.extruders.size() <= words(config.gcode_flavor).e_axes.size());
+  for (const auto& last : info.last_layer) heated.push_back(last.has_value());
   // A name must not end its comment and become G-code.
   std::replace_if(info.name.begin(), info.name.end(), [](char k) { return k >= 0 && k < ' '; }, '_');
-  const int tools = int(config.extruders.size());
-  if (tools > words(config.gcode_flavor).max_tools)
-    throw Error(fmt::format("gcode_flavor {}: firmware of this kind has {} tools at most, the printer profile {}",
-                            placeholders.value("gcode_flavor", 0).value_or(""), words(config.gcode_flavor).max_tools,
-                            tools));
 }
 
 void GcodeWriter::Print::layer(const Layer& layer) {
@@ -183,7 +178,7 @@ void GcodeWriter::Print::change_tool(const Layer& layer, std::size_t first_path)
 void GcodeWriter::Print::turn_off_finished(const Layer& layer, std::size_t from_path) {
   if (!config.heater_off_after_last_use) return;
   for (std::size_t t = 0; t < heated.size(); ++t) {
-    if (!heated[t] || int(t) == machine.tool() || layer.index < info.use[t]->last) continue;
+    if (!heated[t] || int(t) == machine.tool() || layer.index < *info.last_layer[t]) continue;
     const auto rest = std::span(layer.paths).subspan(from_path);
     if (std::any_of(rest.begin(), rest.end(), [&](const Path& p) { return p.extruder == int(t); })) continue;
     machine.set_nozzle(int(t), 0, false);

@@ -32,11 +32,6 @@ namespace cleancolor {
 
 class OutputFile;
 
-struct LayerRange {
-  int first = 0;  // Layer::index
-  int last = 0;
-};
-
 struct Thumbnail {
   int width_px = 0;
   int height_px = 0;
@@ -49,7 +44,7 @@ struct PrintInfo {
   int layer_count = 0;
   double max_z_mm = 0;
   int initial_extruder = 0;                    // of the first path
-  std::vector<std::optional<LayerRange>> use;  // of each extruder of the config; nullopt: prints nothing
+  std::vector<std::optional<int>> last_layer;  // Layer::index, for each extruder of the config; nullopt: prints nothing
   Box<Vec2> first_layer_box_mm;                // of all paths in the first layer
   std::vector<Thumbnail> thumbnails;
 };
@@ -71,12 +66,12 @@ struct PrintFigures {
 
 class GcodeWriter {
  public:
-  /// config and sink are used until finish(). Throws Error where the flavour has too few tools for the config.
+  /// config and sink are used until finish(). Requires: the config is valid (model/validate.hpp).
   GcodeWriter(const Config& config, PrintInfo info, Sink sink);
   ~GcodeWriter();
 
   /// Layers in ascending order of print_z_mm. Throws Error where a template cannot be filled in.
-  /// Requires: every path has at least two points (three where closed) and an extruder that info.use names.
+  /// Requires: every path has at least two points (three where closed) and an extruder that info.last_layer names.
   /// Cost: about 0.3 us a segment.
   void layer(const Layer& layer);
 

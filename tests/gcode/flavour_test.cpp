@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
 #include "gcode/jobs.hpp"
 
 using namespace cleancolor;
@@ -220,11 +219,4 @@ M127
 ;TYPE:Custom
 M84
 )");
-}
-
-TEST(Flavour, SailfishWithThreeToolsIsRefused) {
-  Config c = two_extruders(Flavour::sailfish, OffsetsIn::firmware);
-  c.extruders.resize(3);
-  std::string text;
-  EXPECT_THROW(GcodeWriter(c, info_of(c, two_cubes(1, false)), to_string(text)), Error);
 }

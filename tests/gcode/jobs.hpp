@@ -88,12 +88,10 @@ inline PrintInfo info_of(const Config& config, const std::vector<Layer>& layers)
   info.layer_count = int(layers.size());
   info.max_z_mm = layers.back().print_z_mm;
   info.initial_extruder = layers.front().paths.front().extruder;
-  info.use.resize(config.extruders.size());
+  info.last_layer.resize(config.extruders.size());
   for (const Layer& l : layers)
     for (const Path& p : l.paths) {
-      auto& use = info.use[std::size_t(p.extruder)];
-      if (!use) use = LayerRange{l.index, l.index};
-      use->last = l.index;
+      info.last_layer[std::size_t(p.extruder)] = l.index;
       if (&l == &layers.front())
         for (const Vec2 q : p.points) info.first_layer_box_mm.add(q);
     }

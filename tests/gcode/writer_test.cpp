@@ -341,7 +341,7 @@ TEST(Writer, HeatersGoOffAfterTheLastUseAlsoWhereTheLastLayerHasNothingToPrint) 
   const Config c = two_extruders(Flavour::marlin2, OffsetsIn::firmware);
   std::vector<Layer> layers = two_cubes(6, true);
   PrintInfo info = info_of(c, layers);
-  info.use[0]->last = 4;  // two layers more than it has paths
+  info.last_layer[0] = 4;  // two layers more than it has paths
   std::string text;
   GcodeWriter writer(c, info, to_string(text));
   for (const Layer& l : layers) writer.layer(l);
