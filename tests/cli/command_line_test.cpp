@@ -130,6 +130,21 @@ TEST(SliceRequest, RefusesToWriteOverItsInput) {
   const TestFolder folder;
   const std::string file = folder.file("a.stl", "solid");
   EXPECT_ERROR(slice_request(slice_of({file, "-o", folder.path("./a.stl")}), {}), "input and output are the same file");
+  EXPECT_ERROR(slice_request(slice_of({file, "-o", folder.path("a.gcode"), "--preview", folder.path("./a.stl")}), {}),
+               "input and --preview are the same file");
+  const std::string ini = folder.file("a.ini", "layer_height = 0.2\n");
+  EXPECT_ERROR(slice_request(slice_of({file, "--load", ini, "-o", ini}), {}), "a.ini: input and output");
+  const std::string printer = folder.file("a.toml", "inherits = \"generic\"\n");
+  EXPECT_ERROR(slice_request(slice_of({file, "--printer", printer, "--preview", printer}), {}),
+               "a.toml: input and --preview");
+}
+
+TEST(SliceRequest, RefusesOnePlaceForBothOutputs) {
+  const TestFolder folder;
+  const std::string file = folder.file("a.stl", "solid");
+  EXPECT_ERROR(slice_request(slice_of({file, "-o", folder.path("new"), "--preview", folder.path("./new")}), {}),
+               "output and --preview are the same file");
+  EXPECT_NO_THROW(slice_request(slice_of({file, "-o", folder.path("new"), "--preview", folder.path("new.png")}), {}));
 }
 
 }  // namespace
