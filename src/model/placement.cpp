@@ -57,42 +57,59 @@ std::string size_text(Vec3 size) {
   return fmt::format("{:.1f} x {:.1f} x {:.1f} mm", size.x, size.y, size.z);
 }
 
+/// By how much outlines are printed larger than the parts.
+double growth_mm(const Config& config) {
+  return std::max(0.0, config.xy_size_compensation_mm);
+}
+
+std::string growth_text(const Config& config) {
+  return growth_mm(config) > 0 ? fmt::format(" (with xy_size_compensation = {:g})", growth_mm(config)) : "";
+}
+
 /// Throws where the box of all parts is larger than the print volume.
 void require_size(const Box<Vec3>& box, const Config& config, std::span<const Part> parts) {
-  const Vec3 size = box.size();
+  const double grown_mm = 2 * growth_mm(config);
+  const Vec3 size = box.size() + Vec3{grown_mm, grown_mm, 0};
   const Vec2 bed = bounds_mm(bed_region(config)).size();
   const Vec3 room{bed.x, bed.y, config.max_print_height_mm};
   if (size.x <= room.x + rounding_mm && size.y <= room.y + rounding_mm && size.z <= room.z + rounding_mm) return;
   throw Error(
-      fmt::format("{}{} too large: {}, but the print volume is {}; use --scale or --rotate, or choose another "
+      fmt::format("{}{} too large: {}{}, but the print volume is {}; use --scale or --rotate, or choose another "
                   "printer",
                   parts.front().name, parts.size() == 1 ? ":" : ": it and the other parts together are",
-                  size_text(size), size_text(room)));
+                  size_text(size), growth_text(config), size_text(room)));
 }
 
-bool lies_in(const Part& part, const Polygons& area) {
+Box<Vec3> printed_box(const Part& part, double growth_mm) {
+  Box<Vec3> box = bounds(part.mesh);
+  box.min = box.min - Vec3{growth_mm, growth_mm, 0};
+  box.max = box.max + Vec3{growth_mm, growth_mm, 0};
+  return box;
+}
+
+bool lies_in(const Part& part, double growth_mm, const Polygons& area) {
   // Boxes first: they tell most cases, and keep coordinates within the range of Clipper.
-  const Box<Vec3> box = bounds(part.mesh);
+  const Box<Vec3> box = printed_box(part, growth_mm);
   const Box<Vec2> room = bounds_mm(area);
   if (box.min.x < room.min.x || box.max.x > room.max.x || box.min.y < room.min.y || box.max.y > room.max.y)
     return false;
   Ring shadow;
   for (const Vec3& p : part.mesh.vertices) shadow.push_back(to_nm({p.x, p.y}));
-  return difference({convex_hull({shadow})}, area).empty();
+  return difference(offset({convex_hull({shadow})}, growth_mm), area).empty();
 }
 
 /// Throws where the outline of a part leaves what its nozzle reaches.
 void require_reach(std::span<const Part> parts, const Config& config) {
   for (const Part& part : parts) {
     const Polygons area = offset(reach(config, *part.extruder), rounding_mm);
-    if (lies_in(part, area)) continue;
-    const Box<Vec3> box = bounds(part.mesh);
+    if (lies_in(part, growth_mm(config), area)) continue;
+    const Box<Vec3> box = printed_box(part, growth_mm(config));
     const Box<Vec2> room = bounds_mm(area);
-    throw Error(
-        fmt::format("{}: would lie at X {:.1f} to {:.1f}, Y {:.1f} to {:.1f}, but extruder {} reaches only X {:.1f} to "
-                    "{:.1f}, Y {:.1f} to {:.1f} of the bed; move it with --center, or print it with another extruder",
-                    part.name, box.min.x, box.max.x, box.min.y, box.max.y, *part.extruder + 1, room.min.x, room.max.x,
-                    room.min.y, room.max.y));
+    throw Error(fmt::format(
+        "{}: would lie at X {:.1f} to {:.1f}, Y {:.1f} to {:.1f}{}, but extruder {} reaches only X {:.1f} to "
+        "{:.1f}, Y {:.1f} to {:.1f} of the bed; move it with --center, or print it with another extruder",
+        part.name, box.min.x, box.max.x, box.min.y, box.max.y, growth_text(config), *part.extruder + 1, room.min.x,
+        room.max.x, room.min.y, room.max.y));
   }
 }
 

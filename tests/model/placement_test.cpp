@@ -78,6 +78,18 @@ TEST(Place, RefusesWhatIsTooLargeAndSaysBothSizes) {
                    "400.0 x 20.0 x 20.0 mm, but the print volume is 200.0 x 100.0 x 150.0 mm"));
 }
 
+TEST(Place, KeepsPartsInsideTheBedAlsoWhereTheyArePrintedLarger) {
+  Config config = dual_printer();
+  config.xy_size_compensation_mm = 2;
+  std::vector<Part> fits = {box_part({0, 0, 0}, {196, 20, 20})}, too_long = {box_part({0, 0, 0}, {197, 20, 20})};
+  place(fits, config, {});
+  EXPECT_TRUE(says(refusal([&] { place(too_long, config, {}); }), "201.0 x 24.0 x 20.0 mm (with xy_size_comp"));
+  std::vector<Part> at_the_edge = {box_part({1, 40, 0}, {11, 50, 20})};
+  Placement keep;
+  keep.keep = true;
+  EXPECT_TRUE(says(refusal([&] { place(at_the_edge, config, keep); }), "X -1.0 to 13.0"));
+}
+
 TEST(Place, TurnsBeforeItCentres) {
   std::vector<Part> parts = {box_part({0, 0, 0}, {20, 150, 20})};
   Placement turned;
