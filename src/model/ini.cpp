@@ -161,6 +161,14 @@ void put_offsets(Import& import) {
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     store_option(import.config, option, i, offsets[i] - offsets.front(), where);
   }
+  if (import.config.gcode_flavor == Flavour::sailfish) {
+    import.config.offsets_in = OffsetsIn::firmware;
+    import.progress.warn(
+        fmt::format("{}extruder_offset: sailfish adds the offsets of the nozzles itself; they are not "
+                    "subtracted again",
+                    where));
+    return;
+  }
   import.config.offsets_in = OffsetsIn::slicer;
 }
 

@@ -41,7 +41,8 @@ std::vector<IniEntry> read_gcode_config(std::string_view text, const std::string
 /// versions are understood. What is printed in another way here is replaced by the nearest and warned of; what is not
 /// known and not neutral is listed as ignored.
 ///
-/// Nozzle offsets: a non-zero extruder_offset becomes nozzle_offset with offsets_in = slicer. Zeroes say only that the
+/// Nozzle offsets: a non-zero extruder_offset becomes nozzle_offset with offsets_in = slicer (sailfish adds them
+/// itself: firmware, with a warning). Zeroes say only that the
 /// firmware does it, so nozzle_offset of the config stays. Our own nozzle_offset wins over both.
 ///
 /// Throws Error("file:line: ...") for values that cannot be read or are out of range.

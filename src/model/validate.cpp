@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "model/options.hpp"
+#include "model/thumbnails.hpp"
 
 namespace cleancolor {
 namespace {
@@ -28,6 +29,11 @@ void validate_machine(const Config& config) {
   }
   if (config.gcode_flavor == Flavour::sailfish && count > 2) {
     throw Error(fmt::format("gcode_flavor = sailfish drives at most 2 extruders, not {}", count));
+  }
+  if (config.gcode_flavor == Flavour::sailfish && config.offsets_in == OffsetsIn::slicer && count > 1) {
+    throw Error(
+        "offsets_in = slicer: with gcode_flavor = sailfish the firmware adds the offsets of the nozzles itself; "
+        "leave it at firmware");
   }
   if (area_mm2(config.bed_shape_mm) < 1) {
     throw Error(
@@ -78,7 +84,10 @@ void validate_layers(const Config& config) {
 }
 
 void validate_widths(const Config& config) {
-  const double height_mm = config.layer_height_mm;
+  // The first layer has widths of its own, or else those of the other layers.
+  const bool first_differs = config.first_layer_extrusion_width.value > 0;
+  const double height_mm =
+      first_differs ? config.layer_height_mm : std::max(config.layer_height_mm, config.first_layer_height_mm);
   const Width widths[] = {
       {"extrusion_width", config.extrusion_width, height_mm},
       {"first_layer_extrusion_width", config.first_layer_extrusion_width, config.first_layer_height_mm},
@@ -123,32 +132,6 @@ void validate_materials(const Config& config) {
   }
 }
 
-// "16x16,220x124": sizes of 1 to 4096 pixels.
-bool are_thumbnails(std::string_view text) {
-  const auto take_size = [&text] {
-    int pixels = 0;
-    std::size_t digits = 0;
-    while (digits < text.size() && digits < 5 && std::isdigit(static_cast<unsigned char>(text[digits]))) {
-      pixels = pixels * 10 + (text[digits++] - '0');
-    }
-    text.remove_prefix(digits);
-    return pixels >= 1 && pixels <= 4096;
-  };
-  const auto take = [&text](char c) {
-    if (!text.starts_with(c)) return false;
-    text.remove_prefix(1);
-    return true;
-  };
-  if (text.empty()) return true;
-  for (;;) {
-    if (!take_size() || !take('x') || !take_size()) return false;
-    if (text.empty()) return true;
-    if (!take(',')) return false;
-    while (take(' ')) {
-    }
-  }
-}
-
 }  // namespace
 
 void validate(const Config& config) {
@@ -157,9 +140,7 @@ void validate(const Config& config) {
   validate_layers(config);
   validate_widths(config);
   validate_materials(config);
-  if (!are_thumbnails(config.thumbnails)) {
-    throw Error(fmt::format("thumbnails: '{}' is not a list of sizes such as 16x16,220x124", config.thumbnails));
-  }
+  thumbnail_sizes(config.thumbnails);  // refuses what is none
 }
 
 }  // namespace cleancolor

@@ -33,6 +33,20 @@ std::string fault_of(std::string_view ini) {
 
 using Texts = std::vector<std::string>;
 
+TEST(Ini, LeavesOffsetsToSailfish) {
+  for (const char* flavour : {"sailfish", "makerware"}) {
+    const Loaded l =
+        load(std::string("nozzle_diameter = 0.4,0.4\nextruder_offset = 0x0,33x0\ngcode_flavor = ") + flavour);
+    EXPECT_EQ(l.config.offsets_in, OffsetsIn::firmware);
+    EXPECT_EQ(l.config.extruders[1].nozzle_offset_mm, (Vec2{33, 0}));
+    EXPECT_NE(l.warnings.back().find("a.ini:2: extruder_offset: sailfish adds"), std::string::npos);
+  }
+  Config sailfish;
+  sailfish.gcode_flavor = Flavour::sailfish;
+  EXPECT_EQ(load("nozzle_diameter = 0.4,0.4\nextruder_offset = 0x0,33x0\n", sailfish).config.offsets_in,
+            OffsetsIn::firmware);
+}
+
 TEST(Ini, MapsEverythingThatMattersOfThePeersBaseFile) {
   const std::string file = CLEANCOLOR_SHARED "/peers/cfg/prusa-base.ini";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";

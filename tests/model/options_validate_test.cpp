@@ -38,6 +38,16 @@ TEST(Validate, RefusesLinesThatAreHigherThanWideOrFarTooWide) {
   EXPECT_NO_THROW(validate(with("extrusion_width", "0.31")));
 }
 
+TEST(Validate, ChecksWidthsAgainstTheFirstLayerWhereItHasNoneOfItsOwn) {
+  Config config = with("perimeter_extrusion_width", "0.32");
+  set_option(config, "first_layer_height", "0.35");
+  EXPECT_NO_THROW(validate(config));
+  set_option(config, "first_layer_extrusion_width", "0");
+  EXPECT_ERROR(validate(config), "perimeter_extrusion_width = 0.32 mm is not above the layer height of 0.35 mm");
+  set_option(config, "perimeter_extrusion_width", "110%");
+  EXPECT_NO_THROW(validate(config));
+}
+
 TEST(Validate, RefusesNozzlesThatHoverAtOnePlace) {
   EXPECT_ERROR(validate(with("nozzle_offset", "0x0")), "nozzle_offset: extruders 1 and 2 are at one place");
   EXPECT_ERROR(validate(with("nozzle_offset", "1x0,2x0")), "nozzle_offset: the first must be 0,0");
@@ -62,12 +72,20 @@ TEST(Validate, RefusesMoreExtrudersThanTheFirmwareDrives) {
   EXPECT_ERROR(validate(three), "sailfish drives at most 2");
 }
 
+TEST(Validate, RefusesToSubtractOffsetsThatSailfishAddsItself) {
+  Config config = with("gcode_flavor", "sailfish");
+  EXPECT_NO_THROW(validate(config));
+  config.offsets_in = OffsetsIn::slicer;
+  EXPECT_ERROR(validate(config), "offsets_in = slicer: with gcode_flavor = sailfish the firmware adds");
+}
+
 TEST(Validate, RefusesColoursAndThumbnailsThatAreNone) {
   EXPECT_NO_THROW(validate(with("filament_colour", "#00ff7F")));
   EXPECT_ERROR(validate(with("filament_colour", "red")), "filament_colour of extruder 1: 'red'");
   EXPECT_ERROR(validate(with("extruder_colour", ";#12345G")), "extruder_colour of extruder 2");
-  EXPECT_NO_THROW(validate(with("thumbnails", "16x16, 220x124")));
-  for (const char* bad : {"16", "16x", "16x16,", "0x16", "x16", "16x16x16", "99999x1", "16x16/JPG"}) {
+  EXPECT_NO_THROW(validate(with("thumbnails", "16x16, 220x124/PNG")));
+  for (const char* bad :
+       {"16", "16x", "16x16,", "0x16", "x16", "16x16x16", "99999x1", "2049x16", ",16x16", "16x16/JPG"}) {
     SCOPED_TRACE(bad);
     EXPECT_ERROR(validate(with("thumbnails", bad)), "thumbnails");
   }
