@@ -3,9 +3,9 @@
 // Config: every option of printer, materials and print as plain typed fields.
 //
 // Field = PrusaSlicer's option name + unit. Names, ranges, units and help of all options stand once, in
-// model/options.cpp; defaults stand here. What PrusaSlicer keeps as a list with one value per extruder is a field of
-// Extruder. Angles are degrees here because this struct is the border (files, command line); they become radians where
-// they are used.
+// model/option_table.cpp; defaults stand here. What PrusaSlicer keeps as a list with one value per extruder is a field
+// of Extruder. Angles are degrees here because this struct is the border (files, command line); they become radians
+// where they are used.
 #pragma once
 
 #include <string>
@@ -140,7 +140,7 @@ struct Config {
   // print: speeds
   double perimeter_speed_mm_s = 60;
   LengthOrShare external_perimeter_speed = {0.5, true};  // of perimeter_speed
-  LengthOrShare small_perimeter_speed = {15, false};     // of perimeter_speed
+  LengthOrShare small_perimeter_speed = {15, false};     // of the speed of the loop
   double infill_speed_mm_s = 80;
   LengthOrShare solid_infill_speed = {20, false};      // of infill_speed
   LengthOrShare top_solid_infill_speed = {15, false};  // of solid_infill_speed
@@ -169,7 +169,6 @@ struct Config {
   // print: output
   double resolution_mm = 0.02;          // contours are simplified by this much before any offset
   double gcode_resolution_mm = 0.0125;  // and print paths by this much
-  bool gcode_comments = false;
 
   std::vector<Extruder> extruders = std::vector<Extruder>(1);  // at least one
 };

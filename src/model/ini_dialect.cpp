@@ -85,6 +85,7 @@ constexpr std::string_view never_matter[] = {
     "filament_vendor",
     "first_layer_size",
     "from_sd",
+    "gcode_comments",
     "gcode_substitutions",
     "host_type",
     "idle_temperature_manual",

@@ -18,7 +18,7 @@ Names, meanings and the text of values are PrusaSlicer's wherever it has the opt
 * **per extruder**: a list with one value for each extruder, or one value for all. In `--set` and .ini files numbers are
   separated by commas, texts by semicolons; in TOML it is an array.
 * Yes and no are `1` and `0` in `--set` and .ini files, `true` and `false` in TOML.
-* A share is a percentage such as `50%`, in TOML `"50%"`.
+* A share is a percentage such as `50%`, in TOML `"50%"`; from 0% to 1000%, at least 1% where 0 is not allowed.
 * Points are `33x0` in `--set` and .ini files, `[33, 0]` in TOML; an outline is a list of points.
 )";
 

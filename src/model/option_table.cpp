@@ -134,13 +134,13 @@ constexpr Option table[] = {
 
   {"perimeter_speed", print, "Speeds", &C::perimeter_speed_mm_s, "mm/s", 0.1, 2000, "inner loops"},
   {"external_perimeter_speed", print, "Speeds", &C::external_perimeter_speed, "mm/s or % of perimeter_speed", 0.1, 2000, "outer loops"},
-  {"small_perimeter_speed", print, "Speeds", &C::small_perimeter_speed, "mm/s or % of perimeter_speed", 0.1, 2000, "loops of radius 6.5 mm or less, such as holes"},
+  {"small_perimeter_speed", print, "Speeds", &C::small_perimeter_speed, "mm/s or % of the speed of the loop", 0.1, 2000, "loops of radius 6.5 mm or less, such as holes"},
   {"infill_speed", print, "Speeds", &C::infill_speed_mm_s, "mm/s", 0.1, 2000, "sparse infill"},
   {"solid_infill_speed", print, "Speeds", &C::solid_infill_speed, "mm/s or % of infill_speed", 0.1, 2000, "solid infill"},
   {"top_solid_infill_speed", print, "Speeds", &C::top_solid_infill_speed, "mm/s or % of solid_infill_speed", 0.1, 2000, "top surfaces"},
   {"gap_fill_speed", print, "Speeds", &C::gap_fill_speed_mm_s, "mm/s", 0.1, 2000, "gap fill"},
   {"bridge_speed", print, "Speeds", &C::bridge_speed_mm_s, "mm/s", 0.1, 2000, "bridges and loops that hang over"},
-  {"first_layer_speed", print, "Speeds", &C::first_layer_speed, "mm/s or % of the speed it replaces", 0.1, 2000, "everything on the first layer, unless it is slower anyway"},
+  {"first_layer_speed", print, "Speeds", &C::first_layer_speed, "mm/s or % of the speed it replaces", 0.1, 2000, "everything on the first layer, also what would be slower"},
   {"travel_speed", print, "Speeds", &C::travel_speed_mm_s, "mm/s", 1, 2000, "moves that do not print"},
   {"travel_speed_z", print, "Speeds", &C::travel_speed_z_mm_s, "mm/s", 0, 2000, "moves along Z; 0: travel_speed"},
   {"max_volumetric_speed", print, "Speeds", &C::max_volumetric_speed_mm3_s, "mm3/s", 0, 1000, "most plastic per second; 0: no limit"},
@@ -162,7 +162,6 @@ constexpr Option table[] = {
 
   {"resolution", print, "Output", &C::resolution_mm, "mm", 0, 1, "outlines are simplified by this much before anything else"},
   {"gcode_resolution", print, "Output", &C::gcode_resolution_mm, "mm", 0, 1, "print paths are simplified by this much"},
-  {"gcode_comments", print, "Output", &C::gcode_comments, "", 0, 0, "explain every line"},
 };
 // clang-format on
 

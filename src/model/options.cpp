@@ -98,7 +98,8 @@ OptionKind kind_of(Tag<Enum>) {
   return OptionKind::choice;
 }
 
-constexpr double max_share = 10;  // 1000%
+constexpr double max_share = 10;      // 1000%
+constexpr double least_share = 0.01;  // 1%, where the option must be above 0
 
 // What is wrong with the number, or "".
 std::string range_fault(const Option& option, double value, double shown) {
@@ -125,8 +126,10 @@ std::string value_fault(const Option& option, const OptionValue& value) {
     case OptionKind::length_or_share: {
       const auto v = std::get<LengthOrShare>(value);
       if (!v.is_share) return range_fault(option, v.value, v.value);
-      if (v.value >= 0 && v.value <= max_share) return "";
-      return fmt::format("{:g}% is out of range; it must lie between 0% and {:g}%", v.value * 100, max_share * 100);
+      const double min_share = option.min > 0 ? least_share : 0;
+      if (v.value >= min_share && v.value <= max_share) return "";
+      return fmt::format("{:g}% is out of range; it must lie between {:g}% and {:g}%", v.value * 100, min_share * 100,
+                         max_share * 100);
     }
     case OptionKind::point:
       return point_fault(option, std::get<Vec2>(value));

@@ -117,6 +117,9 @@ TEST(Options, RefuseWhatCannotBeReadOrIsOutOfRangeAndSayWhere) {
   EXPECT_ERROR(set_option(config, "fill_density", "0.2", where), "fill_density: '0.2' may mean 0.2% or 20%");
   EXPECT_ERROR(set_option(config, "fill_density", "101%", where), "fill_density: 101 is out of range");
   EXPECT_ERROR(set_option(config, "extrusion_width", "2000%", where), "extrusion_width: 2000% is out of range");
+  EXPECT_ERROR(set_option(config, "external_perimeter_speed", "0%", where),
+               "0% is out of range; it must lie between 1%");
+  EXPECT_NO_THROW(set_option(config, "extrusion_width", "0%", where));
   EXPECT_ERROR(set_option(config, "bed_shape", "0x0,5", where), "bed_shape: '0x0,5' is not a list of points");
   EXPECT_ERROR(set_option(config, "bed_shape", "0x0,5000x0,0x5", where), "bed_shape: 5000 is out of range");
   EXPECT_ERROR(set_option(config, "nozzle_offset", "0x0,33", where), "nozzle_offset: '33' is not a point");
