@@ -13,6 +13,10 @@
 // - RepRapFirmware gets M106 without P: then it turns the fans that the tool in use is mapped to.
 // - Sailfish keeps one absolute count per tool, on axes of their own (A and B), and is never told G92: gpx takes a G92
 //   before the carriage was driven once in X, Y and Z for 0, 0, 0.
+// - Where the user asks for accelerations, Marlin and RepRapFirmware are told that of travel once (M204 T). Klipper has
+//   one for all moves: travel goes by that of the road before, and the estimate of time knows it.
+// - Left out: the acceleration of retractions (M204 R) and jerk (M205, M566). They stay as the firmware has them; the
+//   machine limits of the profile serve the estimate of time only.
 #pragma once
 
 #include <array>
@@ -32,7 +36,8 @@ struct FlavourWords {
   std::string_view wait_bed;
   std::string_view fan_on;  // {value} in 0..255
   std::string_view fan_off;
-  std::string_view acceleration;                 // {value} in mm/s2, of printing moves
+  std::string_view acceleration;                 // {value} in mm/s2, of printing moves,
+  std::string_view travel_acceleration;          // and of travel; empty: the one above holds for travel, too
   std::string_view progress;                     // {percent} {minutes} to go
   std::string_view e_axes;                       // the letter of each tool's filament; one letter: of all
   bool e_per_tool = false;                       // every tool has a count of its own, never set back; always absolute

@@ -66,7 +66,7 @@ void Machine::travel(Vec2 to_mm) {
   p = put_feed(p, config_.travel_speed_mm_s);
   *p++ = '\n';
   text_.advance_to(p);
-  clock_.push({{dx, dy, 0, 0}, config_.travel_speed_mm_s});
+  clock_.push({{dx, dy, 0, 0}, config_.travel_speed_mm_s, travel_acceleration_mm_s2()});
   at_ = to;
   known_ = true;
 }
@@ -80,7 +80,7 @@ void Machine::move_z(std::int64_t to_um) {
   p = put_feed(p, speed);
   *p++ = '\n';
   text_.advance_to(p);
-  clock_.push({{0, 0, double(to_um - told_z_um_) / 1000, 0}, speed});
+  clock_.push({{0, 0, double(to_um - told_z_um_) / 1000, 0}, speed, travel_acceleration_mm_s2()});
   told_z_um_ = to_um;
   z_known_ = true;
 }
@@ -153,7 +153,7 @@ void Machine::extrude(Vec2 to_mm, const Feed& feed) {
   p = put_feed(p, feed.speed_mm_s);
   *p++ = '\n';
   text_.advance_to(p);
-  clock_.push({{dx, dy, 0, double(delta) * 1e-5}, feed.speed_mm_s, feed.acceleration_mm_s2});
+  clock_.push({{dx, dy, 0, double(delta) * 1e-5}, feed.speed_mm_s, acceleration_mm_s2_});
   at_ = to;
 }
 
@@ -208,8 +208,18 @@ void Machine::set_fan(double share) {
 
 void Machine::set_acceleration(double mm_s2) {
   if (mm_s2 <= 0 || mm_s2 == acceleration_mm_s2_ || words_.acceleration.empty()) return;
+  const auto tell = [&](std::string_view word, double value) {
+    text_.line(fmt::format(fmt::runtime(word), fmt::arg("value", std::lround(value))));
+  };
+  const double travel = config_.machine_max_acceleration_travel_mm_s2;
+  if (acceleration_mm_s2_ == 0 && travel > 0 && !words_.travel_acceleration.empty())
+    tell(words_.travel_acceleration, travel);
   acceleration_mm_s2_ = mm_s2;
-  text_.line(fmt::format(fmt::runtime(words_.acceleration), fmt::arg("value", std::lround(mm_s2))));
+  tell(words_.acceleration, mm_s2);
+}
+
+double Machine::travel_acceleration_mm_s2() const {
+  return words_.travel_acceleration.empty() ? acceleration_mm_s2_ : 0;
 }
 
 void Machine::set_nozzle(int tool, int temperature_c, bool wait) {

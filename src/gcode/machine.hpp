@@ -52,9 +52,8 @@ class Machine {
   void unretract();
 
   struct Feed {
-    double speed_mm_s;          // of the carriage
-    double filament_per_mm;     // mm of filament for one of path
-    double acceleration_mm_s2;  // 0: the firmware's own
+    double speed_mm_s;       // of the carriage
+    double filament_per_mm;  // mm of filament for one of path
   };
   /// Requires: travelled and lowered since the last code of the user's; not retracted.
   void extrude(Vec2 to_mm, const Feed& feed);
@@ -68,7 +67,8 @@ class Machine {
   void shorten_count();
 
   void set_fan(double share);
-  void set_acceleration(double mm_s2);  // of printing moves; 0: left as it is
+  /// Of printing moves; 0: left as it is. Before the first, that of travel is told (gcode/flavour.hpp).
+  void set_acceleration(double mm_s2);
   void set_nozzle(int tool, int temperature_c, bool wait);
   void set_bed(int temperature_c, bool wait);
 
@@ -99,6 +99,7 @@ class Machine {
   char* put_feed(char* p, double speed_mm_s);
   void move_z(std::int64_t to_um);
   void move_filament(std::int64_t delta_e5, double speed_mm_s);
+  double travel_acceleration_mm_s2() const;
   void zero_count();
   void put_custom(std::string_view gcode);
   void clear_position() { known_ = z_known_ = false, feed_ = -1; }
@@ -119,9 +120,9 @@ class Machine {
   std::int64_t told_z_um_ = 0;  // where the firmware is
   bool known_ = false;          // at_ is where the firmware is, too
   bool z_known_ = false;
-  std::int64_t feed_ = -1;  // 1e-3 mm/min
-  int fan_ = -1;            // 0..255
-  double acceleration_mm_s2_ = 0;
+  std::int64_t feed_ = -1;         // 1e-3 mm/min
+  int fan_ = -1;                   // 0..255
+  double acceleration_mm_s2_ = 0;  // as last told; 0: the firmware's own
   std::vector<Filament> filaments_;
 };
 

@@ -150,11 +150,9 @@ Machine::Feed GcodeWriter::Print::begin_road(const Layer& layer, const Extruder&
   if (is_bridge(road.role) && e.cooling && layer.index >= e.disable_fan_first_layers)
     fan = std::max(fan, e.bridge_fan_speed_percent / 100.0);
   machine.set_fan(fan);
-  const double acceleration = road_acceleration_mm_s2(config, road.role, layer.index);
-  machine.set_acceleration(acceleration);
+  machine.set_acceleration(road_acceleration_mm_s2(config, road.role, layer.index));
   return {.speed_mm_s = road_speed_mm_s(config, e, road),
-          .filament_per_mm = road.area_mm2 * e.extrusion_multiplier / filament_area_mm2(e),
-          .acceleration_mm_s2 = words(config.gcode_flavor).acceleration.empty() ? 0 : acceleration};
+          .filament_per_mm = road.area_mm2 * e.extrusion_multiplier / filament_area_mm2(e)};
 }
 
 void GcodeWriter::Print::change_tool(const Layer& layer, std::size_t first_path) {

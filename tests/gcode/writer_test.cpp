@@ -260,6 +260,33 @@ TEST(Writer, AccelerationsFollowTheRoles) {
   EXPECT_NE(text.find("M204 P1200", second), std::string::npos);
 }
 
+TEST(Writer, AccelerationOfTravelIsToldOnceBeforeThatOfRoadsWhereThereIsOne) {
+  for (const Flavour flavour : {Flavour::marlin2, Flavour::reprapfirmware}) {
+    Config c = two_extruders(flavour, OffsetsIn::firmware);
+    EXPECT_EQ(written(c, two_cubes(2, true)).text.find("M204"), std::string::npos);
+    c.perimeter_acceleration_mm_s2 = 800;
+    c.machine_max_acceleration_travel_mm_s2 = 2500;
+    const std::string text = written(c, two_cubes(2, true)).text;
+    EXPECT_EQ(text.find("M204"), text.find("M204 T2500\nM204 P800\n"));
+    EXPECT_EQ(text.find("M204 T"), text.rfind("M204 T"));
+    c.machine_max_acceleration_travel_mm_s2 = 0;
+    EXPECT_EQ(written(c, two_cubes(2, true)).text.find("M204 T"), std::string::npos);
+  }
+}
+
+TEST(Writer, OnKlipperTravelTakesItsTimeAtTheAccelerationOfTheRoads) {
+  Layer layer{.index = 0, .print_z_mm = 0.3, .height_mm = 0.3, .paths = {}, .fan_by_extruder = {}};
+  layer.paths = {square(0, {0, 0}, 10), square(0, {150, 0}, 10)};
+  const auto time_s = [&](Flavour flavour) {
+    Config c = two_extruders(flavour, OffsetsIn::firmware);
+    c.default_acceleration_mm_s2 = 50;
+    return written(c, {layer}).figures.time_s;
+  };
+  // 150 mm at 120 mm/s: there is room for ramps of 1500 mm/s2, but at 50 mm/s2 only for half and half.
+  const double own_s = 150 / 120.0 + 120 / 1500.0, as_roads_s = 2 * std::sqrt(150 / 50.0);
+  EXPECT_NEAR(time_s(Flavour::klipper) - time_s(Flavour::marlin2), as_roads_s - own_s, 0.3);
+}
+
 TEST(Writer, AccelerationOf0AlongMovesOfOneKindIsLimitedByTheAxesOnly) {
   const auto layers = two_cubes(2, false);
   for (double Config::* limit :
