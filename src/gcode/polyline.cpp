@@ -3,32 +3,18 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/polygon.hpp"
+
 namespace cleancolor {
 namespace {
 
-double distance_squared_to_segment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 ab = b - a;
-  const double squared = length_squared(ab);
-  if (squared == 0) return length_squared(p - a);
-  const double t = std::clamp(dot(p - a, ab) / squared, 0.0, 1.0);
-  return length_squared(p - (a + ab * t));
-}
-
 /// Appends the points after `first` up to `last` that must stay.
-void keep_needed(const std::vector<Vec2>& points, std::size_t first, std::size_t last, double tolerance_squared,
-                 std::vector<Vec2>& kept) {
-  double farthest = tolerance_squared;
-  std::size_t split = last;
-  for (std::size_t i = first + 1; i < last; ++i) {
-    const double d = distance_squared_to_segment(points[i], points[first], points[last]);
-    if (d > farthest) farthest = d, split = i;
-  }
-  if (split == last) {
-    kept.push_back(points[last]);
-    return;
-  }
-  keep_needed(points, first, split, tolerance_squared, kept);
-  keep_needed(points, split, last, tolerance_squared, kept);
+void append_needed(const std::vector<Vec2>& points, std::size_t first, std::size_t last, double tolerance_mm,
+                   std::vector<Vec2>& kept) {
+  const std::vector<Vec2> run =
+      simplified(std::vector<Vec2>(points.begin() + std::ptrdiff_t(first), points.begin() + std::ptrdiff_t(last) + 1),
+                 tolerance_mm);
+  kept.insert(kept.end(), run.begin() + 1, run.end());
 }
 
 /// A point outside which all others lie in [first, last] makes a closed run splittable in two open ones.
@@ -65,21 +51,19 @@ double length_of(const std::vector<Vec2>& points) {
 
 void lay_out(const Path& path, double tolerance_mm, double gap_mm, Polyline& line) {
   assert(path.points.size() >= 2 && !path.stretches.empty());
-  thread_local std::vector<Vec2> all;
-  all = path.points;
+  std::vector<Vec2> all = path.points;
   if (path.closed) all.push_back(path.points.front());
 
   line.points.assign(1, all.front());
   line.stretches.clear();
-  const double squared = tolerance_mm * tolerance_mm;
   for (std::size_t s = 0; s < path.stretches.size(); ++s) {
     const std::size_t first = path.stretches[s].first_segment;
     const std::size_t last = s + 1 < path.stretches.size() ? path.stretches[s + 1].first_segment : all.size() - 1;
     line.stretches.push_back({std::uint32_t(line.points.size() - 1), path.stretches[s].road});
     // A loop has no two ends to measure from: it is halved first.
     const std::size_t half = path.closed && path.stretches.size() == 1 ? farthest_from(all, first, last) : first;
-    if (half > first) keep_needed(all, first, half, squared, line.points);
-    keep_needed(all, half, last, squared, line.points);
+    if (half > first) append_needed(all, first, half, tolerance_mm, line.points);
+    append_needed(all, half, last, tolerance_mm, line.points);
   }
   if (path.closed && gap_mm > 0) cut_end(line, std::min(gap_mm, length_of(line.points) / 4));
 }

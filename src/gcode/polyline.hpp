@@ -16,7 +16,7 @@ struct Polyline {
 
 /// Fills line (its memory is reused) with the path's points, as few as keep within tolerance_mm of the others, and
 /// gap_mm cut off the end of a closed path, but at most a quarter of its length. Where a stretch begins the point
-/// stays. Source: Douglas and Peucker 1973.  Cost: about n log n.
+/// stays. Method: simplified() of base/polygon.hpp.  Cost: about n log n.
 void lay_out(const Path& path, double tolerance_mm, double gap_mm, Polyline& line);
 
 }  // namespace cleancolor
