@@ -165,8 +165,12 @@ void Machine::zero_count() {
 void Machine::start_counting() {
   counting_ = true;
   if (words_.e_per_tool) return;
-  text_.line(relative_e_ ? "M83 ; use relative distances for extrusion" : "M82 ; use absolute distances for extrusion");
+  tell_distances();
   zero_count();
+}
+
+void Machine::tell_distances() {
+  text_.line(relative_e_ ? "M83 ; use relative distances for extrusion" : "M82 ; use absolute distances for extrusion");
 }
 
 void Machine::shorten_count() {
@@ -247,6 +251,10 @@ void Machine::put_custom(std::string_view gcode) {
   };
   if (mentions(words_.fan_on) || mentions(words_.fan_off)) fan_ = -1;
   if (mentions(words_.acceleration)) acceleration_mm_s2_ = 0;
+  if (counting_ && (mentions("G90") || mentions("G91") || mentions("M82") || mentions("M83"))) {
+    text_.line("G90");
+    if (!words_.e_per_tool) tell_distances();
+  }
 }
 
 double Machine::filament_mm(int tool) const {

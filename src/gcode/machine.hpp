@@ -11,8 +11,8 @@
 // Nozzles: a point given here is where the plastic lies. Where the slicer makes up for the offsets, X Y = point -
 // nozzle_offset; where the firmware does, X Y = point. A tool change moves no carriage (gcode/flavour.hpp).
 //
-// The user's code and tool changes may leave the carriage anywhere: afterwards X, Y, Z and speed are told anew. Such
-// code must leave absolute coordinates (G90) and the kind of E distances as it found them.
+// The user's code and tool changes may leave the carriage anywhere: afterwards X, Y, Z and speed are told anew, and
+// whether coordinates and E are absolute where the code speaks of it (in Marlin G90 and G91 are about E, too).
 //
 // Guarantees: nothing is extruded while the filament is drawn back, the nozzle lifted or its place or height unknown; a
 // filament drawn back is never drawn back by more than asked, and comes forward by exactly what it went back (plus the
@@ -101,6 +101,7 @@ class Machine {
   void move_filament(std::int64_t delta_e5, double speed_mm_s);
   double travel_acceleration_mm_s2() const;
   void zero_count();
+  void tell_distances();
   void put_custom(std::string_view gcode);
   void clear_position() { known_ = z_known_ = false, feed_ = -1; }
 

@@ -36,7 +36,7 @@ Replay replayed(const std::string& text, const Config& c) {
   bool drawn_back_at_start = false;
   for (const Line& l : parsed(text)) {
     if (l.code == "M83") r.relative = true;
-    if (l.code == "G90" || l.code == "G91") r.relative_axes = l.code == "G91";
+    if (l.code == "G90" || l.code == "G91") r.relative = r.relative_axes = l.code == "G91";  // Marlin: E, too
     if (l.code == "G92") r.count[0] = r.count[1] = 0;
     const bool by_word = l.code == "T0" || l.code == "T1";
     if (by_word || (l.code == "M108" && l.has('T'))) {
@@ -160,9 +160,12 @@ TEST_P(WriterTest, CodeOfTheUserThatMovesTheCarriageNeverMovesThePrint) {
         SCOPED_TRACE(text);
         Config c = config;
         c.*code = text;
+        c.use_relative_e_distances = lift_mm > 0;
         for (Extruder& e : c.extruders) e.retract_lift_mm = lift_mm, e.retract_before_travel_mm = 1e6;
         const auto layers = two_cubes(4, false);
-        const Replay r = replayed(written(c, layers).text, c);
+        const Written w = written(c, layers);
+        const Replay r = replayed(w.text, c);
+        for (std::size_t t = 0; t < 2; ++t) EXPECT_NEAR(r.fed[t], w.figures.extruders[t].length_mm, 1e-6);
         std::size_t next = 0;
         for (const Layer& layer : layers)
           for (const Path& p : layer.paths)
