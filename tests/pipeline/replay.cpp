@@ -16,7 +16,7 @@ struct Words {
   std::string_view code;  // "G1"
   std::optional<double> x, y, z, e;
   char e_axis = 'E';
-  std::optional<double> t, p;
+  std::optional<double> t, p, s;
 };
 
 /// Splits one line; its text goes on beyond the view, at least by a line end.
@@ -37,6 +37,7 @@ Words words_of(std::string_view line) {
     if (letter == 'Z') words.z = value;
     if (letter == 'T') words.t = value;
     if (letter == 'P') words.p = value;
+    if (letter == 'S') words.s = value;
     if (letter == 'E' || letter == 'A' || letter == 'B') words.e = value, words.e_axis = letter;
     at = std::max(std::size_t(end - line.data()), at + 1);
   }
@@ -54,7 +55,7 @@ class Printer {
  public:
   explicit Printer(const Config& config) : config_(config) {
     const std::size_t tools = config.extruders.size();
-    count_.resize(tools), drawn_back_.resize(tools);
+    count_.resize(tools), drawn_back_.resize(tools), target_c_.resize(tools);
     printed.filament_mm.resize(tools);
   }
 
@@ -64,7 +65,10 @@ class Printer {
     while (line.ends_with(' ')) line.remove_suffix(1);
     if (line.empty()) return;
     const Words words = words_of(line);
-    if (words.code == "G1") return move(words);
+    if (words.code == "G0" || words.code == "G1") return move(words);
+    if (words.code == "G90" || words.code == "G91") relative_ = relative_axes_ = words.code == "G91";  // Marlin: E, too
+    if (words.code == "M104" || words.code == "M109") heat(words.t, words.s);
+    if (words.code == "G10") heat(words.p, words.s);
     if (words.code == "M83") relative_ = true;
     if (words.code == "M82") relative_ = false;
     if (words.code == "G92") std::fill(count_.begin(), count_.end(), 0.0);
@@ -91,11 +95,21 @@ class Printer {
     printed.tools.push_back(tool);
   }
 
+  void heat(std::optional<double> tool, std::optional<double> target_c) {
+    const auto t = std::size_t(tool.value_or(tool_));
+    if (target_c && t < target_c_.size()) target_c_[t] = *target_c;
+  }
+
   void move(const Words& words) {
     const Vec2 from = at_;
     const double z = z_;
-    at_ = {words.x.value_or(at_.x), words.y.value_or(at_.y)};
-    z_ = words.z.value_or(z_);
+    if (relative_axes_) {
+      at_ = {at_.x + words.x.value_or(0), at_.y + words.y.value_or(0)};
+      z_ += words.z.value_or(0);
+    } else {
+      at_ = {words.x.value_or(at_.x), words.y.value_or(at_.y)};
+      z_ = words.z.value_or(z_);
+    }
     const double moved = distance(from, at_);
     const double fed = words.e ? fed_by(words) : 0;
     if (!printing_) return;
@@ -128,11 +142,25 @@ class Printer {
     require(drawn_back_before_ || travelled_mm_ < extruder.retract_before_travel_mm + 1e-6 || travelled_mm_ >= 1e9,
             "travels far without drawing back");
     require(travelled_mm_ != 1e9, "prints right after a tool change, without a travel");
+    require(!printed.layer_z_mm.empty() && std::abs(z_ - printed.layer_z_mm.back()) < 1e-3,
+            "extrudes beside the height of its layer");
+    require(target_c_[std::size_t(tool_)] > 0, "extrudes with its heater off");
+    require(reached(from + shift()) && reached(at_ + shift()), "extrudes where its nozzle cannot go");
     travelled_mm_ = 0;
     drawn_back_before_ = false;
     printed.filament_mm[std::size_t(tool_)] += fed;
     if (!printed.percents.empty() && printed.percents.back() >= 100) printed.roads_after_100_percent = true;
     printed.roads.push_back({tool_, role_, from + shift(), at_ + shift(), z_, width_mm_, fed, layer_});
+  }
+
+  /// Within the box of the area that the profile grants the nozzle.
+  bool reached(Vec2 p) const {
+    const auto& own = config_.extruders[std::size_t(tool_)].extruder_printable_area_mm;
+    Box<Vec2> box;
+    for (const Vec2 corner : own.empty() ? config_.bed_shape_mm : own) box.add(corner);
+    constexpr double rounding_mm = 1e-3;
+    return p.x >= box.min.x - rounding_mm && p.x <= box.max.x + rounding_mm && p.y >= box.min.y - rounding_mm &&
+           p.y <= box.max.y + rounding_mm;
   }
 
   Vec2 shift() const {
@@ -148,9 +176,11 @@ class Printer {
   Vec2 at_;  // as in the file
   double z_ = 0;
   int tool_ = 0, layer_ = -1;
-  bool relative_ = false, printing_ = false;
+  bool relative_ = false, printing_ = false;  // of E
+  bool relative_axes_ = false;                // of X, Y and Z
   std::vector<double> count_, drawn_back_;
-  double travelled_mm_ = 0;  // since the last road
+  std::vector<double> target_c_;  // of each nozzle's heater
+  double travelled_mm_ = 0;       // since the last road
   bool drawn_back_before_ = false;
   std::string_view role_ = "Custom";
   double width_mm_ = 0;

@@ -43,7 +43,7 @@ struct Printed {
   std::vector<double> layer_z_mm;   // of ;Z:
   std::vector<int> percents;        // of M73, in the whole file
   bool roads_after_100_percent = false;
-  std::vector<std::string> broken;  // rules of retraction and movement, each in words, at most 10
+  std::vector<std::string> broken;  // rules of retraction, height, heat and movement, each in words, at most 10
 };
 
 Printed replayed(std::string_view text, const Config& config);
