@@ -87,9 +87,10 @@ class Print {
       if (info_.last_layer[e]) used.push_back(int(e));
     if (used.empty()) throw too_thin(request);
     if (slices.outlines.front().empty())
-      throw Error(fmt::format("{}: nothing of the model is left in the first layer (z = {:.2f} mm): it stands on a tip or an "
-                              "edge; turn it so that it lies flat, or cut a little off",
-                              request.files.front().path.filename().string(), slices.slabs.front().slice_z_mm()));
+      throw Error(
+          fmt::format("{}: nothing of the model is left in the first layer (z = {:.2f} mm): it stands on a tip or an "
+                      "edge; turn it so that it lies flat, or cut a little off",
+                      request.files.front().path.filename().string(), slices.slabs.front().slice_z_mm()));
     bed_ = bed_paths(slices, used, config_, progress);
     state_.extruder = info_.initial_extruder = used.front();
     coverage_.resize(info_.last_layer.size());

@@ -16,7 +16,8 @@ struct Progress {
   /// Stage ("slicing", "toolpaths", ...) and how much of it is done, in [0, 1]. Called from one thread at a time.
   std::function<void(std::string_view stage, double done)> advance = [](std::string_view, double) {};
 
-  /// Asked now and then, by several threads at a time; true: stop as soon as possible, leave no output, throw Error("interrupted").
+  /// Asked now and then, by several threads at a time; true: stop as soon as possible, leave no output, throw
+  /// Error("interrupted").
   std::function<bool()> interrupted = [] { return false; };
 };
 

@@ -24,7 +24,8 @@ struct Placement {
 ///
 /// Centre: of the area that every needed nozzle reaches (extruder_printable_area within bed_shape), unless placement
 /// says otherwise. Every part, grown by xy_size_compensation, must then lie within reach of its nozzle and below
-/// max_print_height, else Error with the sizes and what to do.  Requires: every part has an extruder < config.extruders.size().
+/// max_print_height, else Error with the sizes and what to do.  Requires: every part has an extruder <
+/// config.extruders.size().
 void place(std::span<Part> parts, const Config& config, const Placement& placement, const Progress& progress = {});
 
 }  // namespace cleancolor

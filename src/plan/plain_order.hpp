@@ -2,10 +2,10 @@
 //
 // Plain order: what slicers do without colour protection. The nearest path next, straight travel.
 //
-// A layer begins with the extruder that ended the layer below, so that there is about one tool change a layer; the first
-// one with the extruders that are only primed in it. Each extruder prints island by island: perimeters from the inside
-// out (or as Path::depth and external_first say), ring by ring (all loops of a hole, then those of the outline), then
-// fills. It is the baseline that the planner of clean colour is measured against.
+// A layer begins with the extruder that ended the layer below, so that there is about one tool change a layer; the
+// first one with the extruders that are only primed in it. Each extruder prints island by island: perimeters from the
+// inside out (or as Path::depth and external_first say), ring by ring (all loops of a hole, then those of the outline),
+// then fills. It is the baseline that the planner of clean colour is measured against.
 #pragma once
 
 #include "model/config.hpp"

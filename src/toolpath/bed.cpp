@@ -131,9 +131,7 @@ std::vector<Path> prime_lines(const Slices& slices, const Polygons& taken, const
   for (const double share : {1.0, 0.5, 0.25})
     for (const int edge : {0, 1, 2, 3}) {
       auto paths = prime_lines_along(edge, share * config.prime_line_length_mm, extruders, bed, slices, config);
-      const auto fits = [&](const Path& path) {
-        return within(path, common) && keep_out.clipped(path.points).empty();
-      };
+      const auto fits = [&](const Path& path) { return within(path, common) && keep_out.clipped(path.points).empty(); };
       if (std::all_of(paths.begin(), paths.end(), fits)) return paths;
     }
   return {};
@@ -172,7 +170,8 @@ std::vector<std::vector<Path>> bed_paths(const Slices& slices, const std::vector
   std::vector<std::vector<Path>> result(1);
   std::vector<Path> rim = brim(slices, base, config);
   int dropped = drop_unreachable(rim, config);
-  if (config.skirts > 0) result.resize(std::size_t(std::clamp(config.skirt_height_layers, 1, int(slices.slabs.size()))));
+  if (config.skirts > 0)
+    result.resize(std::size_t(std::clamp(config.skirt_height_layers, 1, int(slices.slabs.size()))));
   for (int k = 0; k < int(result.size()) && config.skirts > 0; ++k) {
     const std::vector<int> here = printing(slices, k);
     if (k > 0 && here.empty()) continue;

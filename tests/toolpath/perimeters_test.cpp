@@ -66,8 +66,9 @@ TEST(Perimeters, LeaveTheInfillARegionThatReachesUnderTheInnermostLoop) {
 
 TEST(Perimeters, KeepInfillInsideHoweverMuchOverlapIsAskedFor) {
   for (const int count : {1, 2}) {
-    const Shell shell = perimeters(square_island(20), {}, plain_roads(),
-                                   {.count = count, .thin_walls = false, .gap_fill = false, .infill_overlap = {10, false}});
+    const Shell shell =
+        perimeters(square_island(20), {}, plain_roads(),
+                   {.count = count, .thin_walls = false, .gap_fill = false, .infill_overlap = {10, false}});
     EXPECT_NEAR(area_mm2(shell.fill), 19.6 * 19.6, 0.01);
   }
 }
