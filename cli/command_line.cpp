@@ -168,15 +168,27 @@ void add_output(CLI::App& app, SliceCommand& command) {
       ->group(group);
 }
 
+Error without_file(std::string_view extruder) {
+  return Error(fmt::format("--extruder {}: no file comes after it; it holds for the files that follow", extruder));
+}
+
 // --extruder holds for the files after it, so the order of the arguments counts.
 std::vector<ModelFile> files_in_order(const CLI::App& app, const SliceTexts& texts) {
   std::vector<ModelFile> files;
   std::optional<int> extruder;
   std::size_t next_extruder = 0;
+  bool has_file = true;  // false: the last --extruder still waits for one
   for (const CLI::Option* option : app.parse_order()) {
-    if (option == texts.extruder_option) extruder = extruder_index(texts.extruders.at(next_extruder++), "--extruder");
-    if (option == texts.file_option) files.push_back({texts.files.at(files.size()), extruder});
+    if (option == texts.extruder_option) {
+      if (!has_file) throw without_file(texts.extruders[next_extruder - 1]);
+      extruder = extruder_index(texts.extruders.at(next_extruder++), "--extruder");
+      has_file = false;
+    } else if (option == texts.file_option) {
+      files.push_back({texts.files.at(files.size()), extruder});
+      has_file = true;
+    }
   }
+  if (!has_file) throw without_file(texts.extruders.back());
   return files;
 }
 

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <ostream>
 #include <set>
 
 #include "base/error.hpp"
 #include "cli/console.hpp"
 #include "cli/report.hpp"
+#include "model/options.hpp"
 #include "model/profile.hpp"
 
 namespace cleancolor {
@@ -22,6 +24,25 @@ std::string printers_to_print_with(bool several_extruders) {
     if (!config.audit_only && (config.extruders.size() > 1) >= several_extruders) names.emplace_back(p.name);
   }
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// What people know from other slicers and try here: the beginning of the option's name, and what it is about.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> missing_features = {{
+    {"support_material", "supports are"},
+    {"raft_", "a raft is"},
+    {"ironing", "ironing is"},
+    {"spiral_vase", "the spiral vase is"},
+    {"complete_objects", "printing one object after the other is"},
+    {"brim_ears", "a brim of ears only is"},
+    {"arc_fitting", "arcs are"},
+}};
+
+/// "there is no option" would leave people to look for another name.
+void require_known_features(const std::vector<std::string>& assignments) {
+  for (const std::string& assignment : assignments)
+    for (const auto& [name, feature] : missing_features)
+      if (assignment.starts_with(name) && !find_option(assignment.substr(0, assignment.find('='))))
+        throw Error(fmt::format("--set {}: {} not there yet; leave the option out", assignment, feature));
 }
 
 // As far as the command line alone tells: files may hold more colours.
@@ -77,6 +98,7 @@ void require_separate_files(const SliceCommand& command) {
 
 SliceRequest slice_request(const SliceCommand& command, const Progress& progress) {
   SliceRequest request;
+  require_known_features(command.settings.set);
   request.config = config_of(command.settings, progress);
   const std::size_t needed = needed_extruders(command);
   const bool is_chosen = !command.settings.printer.empty() || !command.settings.load.empty();

@@ -30,6 +30,14 @@ TEST(CommandLine, BindsExtrudersToTheFilesThatFollow) {
   EXPECT_EQ(files[3].extruder, 0);
 }
 
+TEST(CommandLine, RefusesAnExtruderThatNoFileFollows) {
+  const char* message = "--extruder 2: no file comes after it; it holds for the files that follow";
+  EXPECT_ERROR(slice_of({"a.stl", "b.stl", "--extruder", "2"}), message);
+  EXPECT_ERROR(slice_of({"a.stl", "--extruder", "2", "--extruder", "1", "b.stl"}), message);
+  EXPECT_ERROR(slice_of({"a.stl", "--extruder=2", "--quiet"}), message);
+  EXPECT_NO_THROW(slice_of({"--extruder", "2", "--quiet", "a.stl"}));
+}
+
 TEST(CommandLine, ReadsEveryOption) {
   const SliceCommand c =
       slice_of({"a.stl",       "--printer",    "p",         "--material", "m",         "--material", "n",
@@ -124,6 +132,19 @@ TEST(SliceRequest, RefusesProfilesThatServeOnlyToAudit) {
   for (const char* name : {"ultimaker-s5", "bambu-h2d", "raise3d-n2"}) {
     EXPECT_ERROR(slice_request(slice_of({"a.stl", "--printer", name}), {}), "serves only to audit and re-plan");
   }
+}
+
+TEST(SliceRequest, SaysWhichFeaturesAreNotThereYet) {
+  const auto request = [](const std::string& set) { return slice_request(slice_of({"a.stl", "--set", set}), {}); };
+  EXPECT_ERROR(request("support_material=1"), "--set support_material=1: supports are not there yet");
+  EXPECT_ERROR(request("support_material_angle=30"), "supports are not there yet");
+  EXPECT_ERROR(request("raft_layers=3"), "a raft is not there yet");
+  EXPECT_ERROR(request("ironing = 1"), "ironing is not there yet");
+  EXPECT_ERROR(request("spiral_vase=1"), "the spiral vase is not there yet");
+  EXPECT_ERROR(request("complete_objects=1"), "one object after the other is not there yet");
+  EXPECT_ERROR(request("brim_ears=1"), "a brim of ears only is not there yet");
+  EXPECT_ERROR(request("arc_fitting=emit_center"), "arcs are not there yet");
+  EXPECT_ERROR(request("suport=1"), "there is no option 'suport'");
 }
 
 TEST(SliceRequest, RefusesToWriteOverItsInput) {
