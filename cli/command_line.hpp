@@ -38,9 +38,9 @@ struct ProfilesCommand {
   std::string show;  // name or file; empty: list all
 };
 
-/// cleancolor options [--markdown] [NAME]
+/// cleancolor options [--markdown] [WORD]
 struct OptionsCommand {
-  std::string word;  // only options that contain it
+  std::string word;  // only options with it in section, name or help, capitals or not
   bool markdown = false;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/error.hpp"
 #include "model/profile.hpp"
@@ -43,8 +44,14 @@ std::string shown(const Profile& profile) {
   return head + "\n" + profile_toml(config, profile.group);
 }
 
+/// Capitals or not: headings begin with one.
 bool contains(std::string_view text, std::string_view word) {
-  return text.find(word) != text.npos;
+  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+}
+
+bool concerns(const Option& option, std::string_view word) {
+  return contains(option.section, word) || contains(option.name, word) || contains(option.help, word);
 }
 
 }  // namespace
@@ -58,7 +65,7 @@ std::string text_of(const OptionsCommand& command) {
   std::string text;
   std::string_view section;
   for (const Option& option : options()) {
-    if (!contains(option.name, command.word) && !contains(option.help, command.word)) continue;
+    if (!concerns(option, command.word)) continue;
     if (option.section != section) {
       section = option.section;
       text += fmt::format("{}{} ({})\n", text.empty() ? "" : "\n", section, group_name(option.group));
@@ -67,7 +74,7 @@ std::string text_of(const OptionsCommand& command) {
     const std::string_view values = choices.empty() ? option.unit : choices;
     text += fmt::format("  {:<38}{}{}\n", option.name, option.help, values.empty() ? "" : fmt::format(" [{}]", values));
   }
-  if (text.empty()) throw Error(fmt::format("no option has '{}' in its name or help", command.word));
+  if (text.empty()) throw Error(fmt::format("no option has '{}' in its section, name or help", command.word));
   return text;
 }
 

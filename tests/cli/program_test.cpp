@@ -210,5 +210,15 @@ TEST(Program, PrintsTheOptionReference) {
   EXPECT_EQ(r.out.find("layer_height"), r.out.npos);
 }
 
+TEST(Program, FindsOptionsByTheHeadingTheyStandUnder) {
+  const TestFolder folder;
+  for (const char* word : {"infill", "INFILL"}) {
+    const Outcome r = run(folder, fmt::format("options {}", word));
+    for (const char* name : {"  fill_density ", "  fill_pattern ", "  solid_infill_speed "})
+      EXPECT_NE(r.out.find(name), r.out.npos) << name;
+    EXPECT_EQ(r.out.find("  nozzle_offset "), r.out.npos);
+  }
+}
+
 }  // namespace
 }  // namespace cleancolor
