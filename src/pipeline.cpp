@@ -32,7 +32,7 @@ std::vector<Part> parts_of(const SliceRequest& request, const Progress& progress
     files.push_back(read_model(file.path, progress));
     assignment.extruder_of_file.push_back(file.extruder);
   }
-  assign_extruders(files, assignment);
+  assign_extruders(files, assignment, progress);
   std::vector<Part> parts;
   for (std::vector<Part>& file : files)
     for (Part& part : file) {

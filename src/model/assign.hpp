@@ -11,6 +11,10 @@
 //   5. its file, where there are several: each that still needs one takes the next free extruder;
 //   6. extruder 0.
 // Free are, from the first up, the extruders that 1 and 2 do not name.
+//
+// A mapping of a colour that no part has is a mistake in typing more often than not, so it is refused. A file of
+// several parts that all fall through to 5 or 6 may have lost its colours on the way, so it is warned of where the
+// printer has several extruders.
 #pragma once
 
 #include <map>
@@ -18,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/mesh.hpp"
 
 namespace cleancolor {
@@ -29,7 +34,8 @@ struct Assignment {
 };
 
 /// Afterwards every part has an extruder in [0, assignment.extruders).
-/// Throws Error where the printer has too few extruders; numbers in messages are 1-based.
-void assign_extruders(std::span<std::vector<Part>> files, const Assignment& assignment);
+/// Throws Error where the printer has too few extruders, or no part has a mapped colour. Numbers in messages are
+/// 1-based.
+void assign_extruders(std::span<std::vector<Part>> files, const Assignment& assignment, const Progress& progress = {});
 
 }  // namespace cleancolor

@@ -77,5 +77,44 @@ TEST(Assign, RefusesMoreExtrudersThanThePrinterHas) {
   EXPECT_TRUE(says(refusal([] { assigned({{with_extruder(4)}}, printer(2)); }), "needs extruder 5"));
 }
 
+TEST(Assign, RefusesToMapAColourThatNoPartHas) {
+  EXPECT_TRUE(says(refusal([] { assigned({{coloured(green), coloured(blue)}}, {{}, {{red, 1}}, 2}); }),
+                   "--map-colour #FF0000=2: no part has this colour; there are #0000FF, #00FF00"));
+  EXPECT_TRUE(says(refusal([] { assigned({{part()}, {of_material("PLA")}}, {{}, {{red, 1}}, 2}); }),
+                   "--map-colour #FF0000=2: no part has a colour"));
+}
+
+TEST(Assign, ListsOnlySomeOfManyColours) {
+  std::vector<Part> parts;
+  for (std::uint32_t rgb = 0; rgb < 20; ++rgb) parts.push_back(coloured(rgb));
+  EXPECT_TRUE(says(refusal([&] { assigned({parts}, {{}, {{red, 1}}, 2}); }), "#00000E, #00000F and 4 more"));
+}
+
+TEST(Assign, RefusesToMapAColourToAnExtruderThatThePrinterDoesNotHave) {
+  for (const Part& p : {part(), coloured(red), coloured(blue)})
+    EXPECT_TRUE(says(refusal([&] { assigned({{p}}, {{}, {{red, 2}}, 2}); }),
+                     "--map-colour #FF0000=3: the printer has 2 extruders"));
+}
+
+std::vector<std::string> warnings(std::vector<std::vector<Part>> files, const Assignment& assignment) {
+  std::vector<std::string> texts;
+  assign_extruders(files, assignment, {.warn = [&](const std::string& text) { texts.push_back(text); }});
+  return texts;
+}
+
+TEST(Assign, WarnsOfPartsOfOneFileThatSayNothingWhereThePrinterHasSeveralExtruders) {
+  const Part a{"two.3mf: a", {}, {}, {}, {}};
+  const Part b{"two.3mf: b", {}, {}, {}, {}};
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(warnings({{a, b}}, printer(2)),
+            Texts{"two.3mf: 2 parts without colour or extruder, all printed by extruder 1"});
+  EXPECT_EQ(warnings({{part()}, {a, b}}, printer(2)),
+            Texts{"two.3mf: 2 parts without colour or extruder, all printed by extruder 2"});
+  EXPECT_EQ(warnings({{a, b}}, printer(1)), Texts{});
+  EXPECT_EQ(warnings({{a, b}}, {{1}, {}, 2}), Texts{}) << "--extruder 2 was asked for";
+  EXPECT_EQ(warnings({{part()}, {part()}}, printer(2)), Texts{});
+  EXPECT_EQ(warnings({{coloured(red), coloured(red)}}, printer(2)), Texts{});
+}
+
 }  // namespace
 }  // namespace cleancolor
