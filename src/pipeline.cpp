@@ -49,6 +49,7 @@ SliceOptions slice_options(const SliceRequest& request) {
           .first_layer_height_mm = config.first_layer_height_mm,
           .layer_height_mm = config.layer_height_mm,
           .resolution_mm = config.resolution_mm,
+          .closing_radius_mm = config.slice_closing_radius_mm,
           .xy_size_compensation_mm = config.xy_size_compensation_mm,
           .elefant_foot_compensation_mm = config.elefant_foot_compensation_mm,
           .overlap = request.overlap,
@@ -64,9 +65,27 @@ std::vector<std::optional<int>> last_layers(const Slices& slices) {
   return last;
 }
 
-Error too_thin(const SliceRequest& request) {
-  return Error(fmt::format("{}: every wall is too thin to print: nothing would come out; is the model's scale right?",
-                           request.files.front().path.filename().string()));
+/// The extruder with the most of the first layer: its material must stick to the bed.
+int bed_extruder(const Slices& slices) {
+  const auto& regions = slices.regions.front();
+  const auto most = std::max_element(regions.begin(), regions.end(),
+                                     [](const Polygons& a, const Polygons& b) { return area_mm2(a) < area_mm2(b); });
+  return int(most - regions.begin());
+}
+
+/// "ocean, land": what is printed, for the file's header.
+std::string name_of(const SliceRequest& request) {
+  std::string names;
+  for (const ModelFile& file : request.files) names += (names.empty() ? "" : ", ") + file.path.stem().string();
+  return names;
+}
+
+Error too_thin(const SliceRequest& request, int extruder) {
+  return Error(
+      fmt::format("{}: every wall that extruder {} should print is too thin: nothing of it would come out; is the "
+                  "model's scale right (inches, metres)?{}",
+                  request.files.front().path.filename().string(), extruder + 1,
+                  request.config.thin_walls ? "" : " thin_walls = 1 prints thinner ones"));
 }
 
 /// The layers of one print on their way from regions to G-code; each stage owns its slot of each layer.
@@ -85,7 +104,7 @@ class Print {
     std::vector<int> used;
     for (std::size_t e = 0; e < info_.last_layer.size(); ++e)
       if (info_.last_layer[e]) used.push_back(int(e));
-    if (used.empty()) throw too_thin(request);
+    if (used.empty()) throw too_thin(request, 0);
     if (slices.outlines.front().empty())
       throw Error(
           fmt::format("{}: nothing of the model is left in the first layer (z = {:.2f} mm): it stands on a tip or an "
@@ -105,11 +124,8 @@ class Print {
                                 {1, [&](int k) { make_paths(k); }}},
                      .consume = [&](int k) { write(k); }},
                     threads);
-    warn_of_losses();
+    judge_losses();
     PrintFigures figures = writer_->finish();
-    const bool nothing =
-        std::all_of(coverage_.begin(), coverage_.end(), [](const Coverage& c) { return c.lost_mm2 >= c.all_mm2; });
-    if (nothing) throw too_thin(request_);
     return figures;
   }
 
@@ -155,10 +171,12 @@ class Print {
     writer_ = std::make_unique<GcodeWriter>(config_, std::move(info_), std::move(sink_));
   }
 
-  /// What is too thin to print is worth a word where it is more than the tip of a cone.
-  void warn_of_losses() const {
+  /// What is too thin to print is worth a word where it is more than the tip of a cone; a colour of which nothing is
+  /// left is not what anybody wants.
+  void judge_losses() const {
     for (std::size_t e = 0; e < coverage_.size(); ++e) {
       const Coverage& c = coverage_[e];
+      if (c.all_mm2 > 0 && c.lost_mm2 >= c.all_mm2) throw too_thin(request_, int(e));
       const double noticed = 0.01 * c.all_mm2;
       if (c.lost_mm2 > noticed)
         progress_.warn(fmt::format("{:.0f} % of what extruder {} should print is too thin for a road and left out{}",
@@ -205,16 +223,16 @@ Summary slice(const SliceRequest& request, const Progress& progress) {
 
   progress.advance("slicing", 0);
   const Slices layers = slices(parts, slice_options(request), progress);
-  PrintInfo info{.name = request.files.front().path.stem().string(),
+  PrintInfo info{.name = name_of(request),
                  .layer_count = int(layers.slabs.size()),
                  .max_z_mm = layers.slabs.back().print_z_mm,
                  .initial_extruder = 0,
+                 .bed_extruder = bed_extruder(layers),
                  .last_layer = last_layers(layers),
                  .first_layer_box_mm = {},
                  .thumbnails = thumbnails(parts, request.config)};
   for (const Part& part : parts)
-    if (!info.last_layer[std::size_t(*part.extruder)])
-      progress.warn(fmt::format("{}: too thin everywhere, nothing of it is printed", part.name));
+    if (!info.last_layer[std::size_t(*part.extruder)]) throw too_thin(request, *part.extruder);
 
   OutputFile file(request.output);
   Print print(request, layers, std::move(info), to_file(file), progress);

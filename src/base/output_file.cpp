@@ -40,6 +40,11 @@ OutputFile::OutputFile(const std::filesystem::path& target) : target_(target) {
     throw SystemError(fmt::format("{}: is a folder; name a file to write", target_.string()));
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw SystemError(fmt::format("{}: is not a regular file; name one to write", target_.string()));
+  // Renaming would replace a write-protected file all the same, as would root.
+  constexpr auto writable =
+      std::filesystem::perms::owner_write | std::filesystem::perms::group_write | std::filesystem::perms::others_write;
+  if (std::filesystem::exists(status) && (status.permissions() & writable) == std::filesystem::perms::none)
+    throw SystemError(fmt::format("{}: is write-protected; name another file to write", target_.string()));
 
   // The process id keeps two runs that write the same target apart.
   temporary_ = target_.parent_path() / fmt::format(".{}.{}.part", target_.filename().string(), ::getpid());

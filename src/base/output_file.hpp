@@ -13,8 +13,9 @@ namespace cleancolor {
 /// Writes to a hidden temporary file beside the target; commit() renames it. Without commit() the destructor removes it
 /// and a file that was there before stays as it was.
 ///
-/// Every failure (no such folder, no permission, disc full, the target is not a regular file) is a SystemError with the
-/// path and the reason. A symbolic link is followed: the file that it names is replaced, not the link.
+/// Every failure (no such folder, no permission, disc full, the target is write-protected or not a regular file) is a
+/// SystemError with the path and the reason. A symbolic link is followed: the file that it names is replaced, not the
+/// link.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& target);

@@ -103,11 +103,12 @@ void GcodeWriter::Print::start(const Layer& first) {
   for (std::size_t t = 0; t < config.extruders.size(); ++t)
     if (info.last_layer[t] && !heats_nozzle(config.start_gcode, code, w, int(t), info.initial_extruder))
       to_heat.push_back(int(t));
-  const bool heat_bed = initial.first_layer_bed_temperature_c > 0 && !heats_bed(config.start_gcode, code, w);
+  const int bed_c = config.extruders[std::size_t(info.bed_extruder)].first_layer_bed_temperature_c;
+  const bool heat_bed = bed_c > 0 && !heats_bed(config.start_gcode, code, w);
   machine.set_fan(0);
-  if (heat_bed) machine.set_bed(initial.first_layer_bed_temperature_c, false);
+  if (heat_bed) machine.set_bed(bed_c, false);
   for (const int t : to_heat) machine.set_nozzle(t, config.extruders[std::size_t(t)].first_layer_temperature_c, false);
-  if (heat_bed) machine.set_bed(initial.first_layer_bed_temperature_c, true);
+  if (heat_bed) machine.set_bed(bed_c, true);
   text.line(";TYPE:Custom");
   machine.custom(code);
   for (const int t : to_heat) machine.set_nozzle(t, config.extruders[std::size_t(t)].first_layer_temperature_c, true);

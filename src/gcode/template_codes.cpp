@@ -55,11 +55,28 @@ bool hands_over(std::string_view code, std::string_view option, const std::array
   return false;
 }
 
+/// The same of one nozzle: {first_layer_temperature[1]} and [first_layer_temperature_1] are nozzle 1's, without a
+/// number the first one's that prints.
+bool hands_over_nozzle(std::string_view code, const std::array<std::string_view, 3>& codes, int tool,
+                       int initial_tool) {
+  constexpr std::string_view option = "first_layer_temperature";
+  for (const std::string_view line : lines_of(code)) {
+    if (begins_with_any(line, codes)) continue;
+    for (std::size_t at = line.find(option); at != line.npos; at = line.find(option, at + 1)) {
+      const std::string_view rest = line.substr(at + option.size());
+      const bool numbered =
+          rest.size() > 1 && (rest[0] == '[' || rest[0] == '_') && std::isdigit(static_cast<unsigned char>(rest[1]));
+      if ((numbered ? rest[1] - '0' : initial_tool) == tool) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 bool heats_nozzle(std::string_view code, std::string_view filled, const FlavourWords& words, int tool,
                   int initial_tool) {
-  if (hands_over(code, "first_layer_temperature", words.nozzle_codes)) return true;
+  if (hands_over_nozzle(code, words.nozzle_codes, tool, initial_tool)) return true;
   for (const std::string_view line : lines_of(filled)) {
     if (!begins_with_any(line, words.nozzle_codes)) continue;
     if (has_parameter(line, fmt::format("T{}", tool)) || has_parameter(line, fmt::format("P{}", tool))) return true;

@@ -10,7 +10,8 @@
 namespace cleancolor {
 
 /// Whether start code sets the temperature of this nozzle. A heating code without a tool is meant for initial_tool; one
-/// with S0 says "leave it to me", as does a macro that is given {first_layer_temperature...}: then for all nozzles.
+/// with S0 says "leave it to me" for all. A macro heats those nozzles whose {first_layer_temperature[n]} it is given;
+/// without [n] the initial tool's.
 /// code: as in the config; filled: the same with its placeholders replaced.
 bool heats_nozzle(std::string_view code, std::string_view filled, const FlavourWords& words, int tool,
                   int initial_tool);

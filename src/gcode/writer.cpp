@@ -189,8 +189,8 @@ void GcodeWriter::Print::later_temperatures() {
     const Extruder& e = config.extruders[t];
     if (heated[t] && e.temperature_c != e.first_layer_temperature_c) machine.set_nozzle(int(t), e.temperature_c, false);
   }
-  const Extruder& first = config.extruders[std::size_t(info.initial_extruder)];
-  if (first.bed_temperature_c != first.first_layer_bed_temperature_c) machine.set_bed(first.bed_temperature_c, false);
+  const Extruder& bed = config.extruders[std::size_t(info.bed_extruder)];
+  if (bed.bed_temperature_c != bed.first_layer_bed_temperature_c) machine.set_bed(bed.bed_temperature_c, false);
 }
 
 void GcodeWriter::Print::custom(std::string_view code, std::string_view option_name) {

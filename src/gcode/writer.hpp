@@ -44,6 +44,7 @@ struct PrintInfo {
   int layer_count = 0;
   double max_z_mm = 0;
   int initial_extruder = 0;                    // of the first path
+  int bed_extruder = 0;                        // whose material says how hot the bed must be
   std::vector<std::optional<int>> last_layer;  // Layer::index, for each extruder of the config; nullopt: prints nothing
   Box<Vec2> first_layer_box_mm;                // of all paths in the first layer
   std::vector<Thumbnail> thumbnails;

@@ -114,6 +114,7 @@ struct Config {
   double solid_infill_below_area_mm2 = 70;
   SeamPosition seam_position = SeamPosition::aligned;
   LengthOrShare seam_gap_distance = {0.15, true};  // of the nozzle diameter
+  double slice_closing_radius_mm = 0.049;
   double xy_size_compensation_mm = 0;
   double elefant_foot_compensation_mm = 0;
 

@@ -113,7 +113,6 @@ constexpr std::string_view never_matter[] = {
     "serial_speed",
     "shortcuts",
     "silent_mode",
-    "slice_closing_radius",
     "slicing_mode",
     "template_custom_gcode",
     "thumbnails_format",

@@ -111,6 +111,7 @@ constexpr Option table[] = {
   {"solid_infill_below_area", print, "Layers and walls", &C::solid_infill_below_area_mm2, "mm2", 0, 1e6, "smaller regions are solid"},
   {"seam_position", print, "Layers and walls", &C::seam_position, "", 0, 0, "where loops begin"},
   {"seam_gap_distance", print, "Layers and walls", &C::seam_gap_distance, "mm or % of nozzle_diameter", 0, 10, "gap left between the ends of a loop"},
+  {"slice_closing_radius", print, "Layers and walls", &C::slice_closing_radius_mm, "mm", 0, 5, "cracks up to twice this wide are closed"},
   {"xy_size_compensation", print, "Layers and walls", &C::xy_size_compensation_mm, "mm", -10, 10, "outlines grow by this much"},
   {"elefant_foot_compensation", print, "Layers and walls", &C::elefant_foot_compensation_mm, "mm", 0, 10, "outlines of the first layer shrink by this much"},
 

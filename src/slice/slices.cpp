@@ -50,6 +50,23 @@ void make_disjoint(std::vector<Polygons>& regions, double height_mm, Overlap rul
     }
 }
 
+/// Fills cracks narrower than twice the radius that no other extruder prints. Where there are none, the region stays as
+/// it is to the last point: neighbours share these points.
+void close_cracks(std::vector<Polygons>& regions, double radius_mm) {
+  if (radius_mm <= 0) return;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    if (regions[i].empty()) continue;
+    constexpr double noise_mm = 0.003;  // rounding of offsets, to and fro
+    Polygons cracks = opened(difference(closed(regions[i], radius_mm), regions[i]), noise_mm);
+    if (cracks.empty()) continue;
+    // A hair wider, so that they grow together with the region.
+    cracks = offset(cracks, noise_mm);
+    for (std::size_t j = 0; j < regions.size(); ++j)
+      if (j != i) cracks = difference(cracks, regions[j]);
+    regions[i] = united(regions[i], cracks);
+  }
+}
+
 Polygons all_of(const std::vector<Polygons>& regions) {
   Polygons all;
   for (const Polygons& r : regions) all.insert(all.end(), r.begin(), r.end());
@@ -183,6 +200,7 @@ Slices slices(std::span<const Part> parts, const SliceOptions& options, const Pr
     regions = simplified_together(regions, options.resolution_mm);
     for (Polygons& region : regions) region = united(region);
     make_disjoint(regions, result.slabs[k].height_mm, options.overlap, findings[k]);
+    close_cracks(regions, options.closing_radius_mm);
     compensate(regions, options.xy_size_compensation_mm);
     if (k == 0) compensate(regions, -options.elefant_foot_compensation_mm);
     result.outlines[k] = all_of(regions);

@@ -50,6 +50,7 @@ struct SliceOptions {
   double first_layer_height_mm = 0.3;
   double layer_height_mm = 0.3;
   double resolution_mm = 0.02;
+  double closing_radius_mm = 0.049;         // cracks up to twice this wide are closed
   double xy_size_compensation_mm = 0;       // > 0 grows; not across a border between two extruders
   double elefant_foot_compensation_mm = 0;  // the first layer shrinks by this, not across such a border
   Overlap overlap = Overlap::refuse;        // where parts of different extruders overlap by more than 0.05 mm

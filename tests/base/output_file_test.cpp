@@ -92,6 +92,9 @@ TEST_F(OutputFileTest, FailuresNamePathAndReason) {
   EXPECT_NE(failure(folder / "missing/a").find("missing/a: cannot be created: No such file"), std::string::npos);
   EXPECT_NE(failure(folder).find("folder"), std::string::npos);
   EXPECT_NE(failure("/dev/null").find("regular"), std::string::npos);
+  write_file(folder / "precious", "old");
+  fs::permissions(folder / "precious", fs::perms::owner_read);
+  EXPECT_NE(failure(folder / "precious").find("write-protected"), std::string::npos);
 }
 
 TEST_F(OutputFileTest, AFullDiscIsAnErrorAndLeavesNothing) {

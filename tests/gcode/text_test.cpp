@@ -109,7 +109,12 @@ TEST(TemplateCodes, StartCodeThatHeatsIsRecognised) {
   EXPECT_FALSE(heats("M104 S200 T1", 0));
   EXPECT_FALSE(heats("M104 S200 T11", 1));
   EXPECT_TRUE(heats("M104 S0", 1));
-  EXPECT_TRUE(heats("START_PRINT T={first_layer_temperature[0]}", 1));
+  // A macro heats the nozzles whose temperature it is given; the others would stay cold.
+  EXPECT_TRUE(heats("START_PRINT T={first_layer_temperature[0]}", 0));
+  EXPECT_FALSE(heats("START_PRINT T={first_layer_temperature[0]}", 1));
+  EXPECT_TRUE(heats("START_PRINT A={first_layer_temperature[0]} B=[first_layer_temperature_1]", 1));
+  EXPECT_TRUE(heats("START_PRINT T=[first_layer_temperature]", 0));
+  EXPECT_FALSE(heats("START_PRINT T=[first_layer_temperature]", 1));
   EXPECT_FALSE(heats_bed("M104 S200", "M104 S200", w));
   EXPECT_TRUE(heats_bed("M190 S60", "M190 S60", w));
 }

@@ -71,13 +71,33 @@ TEST(Output, InAFolderThatDoesNotExistIsASystemError) {
   EXPECT_EQ(files_in(folder), std::vector<std::string>{"cube.stl"});
 }
 
+TEST(Output, WithoutAnythingOfOneColourIsRefused) {
+  const TestFolder folder;
+  const auto block = stl_file(folder, "block.stl", box_mesh({0, 0, 0}, {20, 20, 10}));
+  const auto foil = stl_file(folder, "foil.stl", box_mesh({20, 0, 0}, {20.05, 20, 10}));
+  EXPECT_ERROR(
+      slice(request_for({block, foil}, config_of({.printer = "generic-dual-marlin"}), folder.path("out.gcode"))),
+      "extruder 2 should print is too thin");
+}
+
+TEST(Output, HeatsTheBedForTheMaterialThatStandsOnIt) {
+  // Extruder 1 prints only high up; the bed is for extruder 2.
+  const TestFolder folder;
+  const auto high = stl_file(folder, "high.stl", box_mesh({0, 0, 5}, {20, 20, 10}));
+  const auto low = stl_file(folder, "low.stl", box_mesh({0, 0, 0}, {20, 20, 5}));
+  const Config config = config_of({.printer = "generic-dual-marlin", .set = {"first_layer_bed_temperature=110,60"}});
+  const Sliced result = sliced(request_for({high, low}, config, folder.path("out.gcode")));
+  EXPECT_NE(result.text.find("M190 S60\n"), std::string::npos);
+  EXPECT_EQ(result.text.find("M190 S110\n"), std::string::npos);
+}
+
 TEST(Output, OfWallsTooThinToPrintIsNotThereAndTheFileIsNamed) {
   const TestFolder folder;
   for (const double wall_mm : {0.001, 0.02, 0.05}) {  // the first ones are gone before there is a region to print
     SCOPED_TRACE(wall_mm);
     const auto stl = stl_file(folder, "foil.stl", box_mesh({0, 0, 0}, {20, wall_mm, 20}));
     EXPECT_ERROR(slice(request_for({stl}, config_of({.printer = "generic"}), folder.path("out.gcode"))),
-                 "foil.stl: every wall is too thin to print");
+                 "foil.stl: every wall that extruder 1 should print is too thin");
     EXPECT_EQ(files_in(folder), std::vector<std::string>{"foil.stl"});
   }
 }

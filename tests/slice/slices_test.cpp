@@ -178,6 +178,22 @@ TEST(Slices, RefuseWhatIsFlatterThanHalfALayer) {
   EXPECT_TRUE(says(refusal([&] { slices(std::span(&p, 1), {}); }), "0.050 mm high"));
 }
 
+TEST(Slices, CloseCracksButNotGapsNorWhatAnotherExtruderPrints) {
+  // A 20 mm block in two halves with a crack of 0.06 mm between them; then a gap of 0.2 mm; then the crack is filled.
+  const auto halves = [](double gap) {
+    return joined(box_mesh({0, 0, 0}, {10, 20, 5}), box_mesh({10 + gap, 0, 0}, {20, 20, 5}));
+  };
+  const Part cracked = part(halves(0.06), 0), gapped = part(halves(0.2), 0);
+  EXPECT_NEAR(area_mm2(slices(std::span(&cracked, 1), {}).regions[3][0]), 400, 0.01);
+  EXPECT_EQ(slices(std::span(&cracked, 1), {}).regions[3][0].size(), 1u);
+  EXPECT_NEAR(area_mm2(slices(std::span(&cracked, 1), {.closing_radius_mm = 0}).regions[3][0]), 400 - 0.06 * 20, 1e-6);
+  EXPECT_NEAR(area_mm2(slices(std::span(&gapped, 1), {}).regions[3][0]), 400 - 0.2 * 20, 1e-6);
+  const Part filled[] = {part(halves(0.06), 0), part(box_mesh({10, 0, 0}, {10.06, 20, 5}), 1)};
+  const Slices both = slices(filled, {.extruders = 2});
+  EXPECT_NEAR(area_mm2(both.regions[3][1]), 0.06 * 20, 1e-6);
+  EXPECT_NEAR(area_mm2(both.regions[3][0]), 400 - 0.06 * 20, 1e-3);
+}
+
 TEST(Slices, CompensationMovesTheOutsideButNotTheBorderBetweenColours) {
   const Part parts[] = {part(box_mesh({0, 0, 0}, {20, 20, 5}), 0), part(box_mesh({20, 0, 0}, {40, 20, 5}), 1)};
   for (const double delta : {0.2, -0.2}) {
