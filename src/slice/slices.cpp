@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -50,8 +51,15 @@ void make_disjoint(std::vector<Polygons>& regions, double height_mm, Overlap rul
     }
 }
 
-/// Fills cracks narrower than twice the radius that no other extruder prints. Where there are none, the region stays as
-/// it is to the last point: neighbours share these points.
+/// Whether any region but the i-th has this point.
+bool others_have(const std::vector<Polygons>& regions, std::size_t i, const Point& p) {
+  for (std::size_t j = 0; j < regions.size(); ++j)
+    if (j != i && contains(regions[j], p)) return true;
+  return false;
+}
+
+/// Fills cracks narrower than twice the radius that no other extruder prints, and what is left of them at their ends.
+/// Where there are none, the region stays as it is to the last point: neighbours share these points.
 void close_cracks(std::vector<Polygons>& regions, double radius_mm) {
   if (radius_mm <= 0) return;
   for (std::size_t i = 0; i < regions.size(); ++i) {
@@ -64,6 +72,10 @@ void close_cracks(std::vector<Polygons>& regions, double radius_mm) {
     for (std::size_t j = 0; j < regions.size(); ++j)
       if (j != i) cracks = difference(cracks, regions[j]);
     regions[i] = united(regions[i], cracks);
+    std::erase_if(regions[i], [&](const Ring& ring) {
+      const double area = area_mm2(ring);
+      return area < 0 && -area < std::numbers::pi * radius_mm * radius_mm && !others_have(regions, i, ring.front());
+    });
   }
 }
 

@@ -194,6 +194,17 @@ TEST(Slices, CloseCracksButNotGapsNorWhatAnotherExtruderPrints) {
   EXPECT_NEAR(area_mm2(both.regions[3][0]), 400 - 0.06 * 20, 1e-3);
 }
 
+TEST(Slices, CloseACrackUpToItsEnds) {
+  // A plate with a slit of 0.08 x 2 mm in it, turned so that its ends are not square to anything.
+  Mesh slit = inside_out(box_mesh({-1, -0.04, -1}, {1, 0.04, 6}));
+  for (Vec3& v : slit.vertices) v = {10 + 0.8 * v.x - 0.6 * v.y, 10 + 0.6 * v.x + 0.8 * v.y, v.z < 0 ? 0.0 : 5.0};
+  const Part plate = part(joined(box_mesh({0, 0, 0}, {20, 20, 5}), slit), 0);
+  for (const auto& layer : slices(std::span(&plate, 1), {}).regions) {
+    EXPECT_EQ(layer[0].size(), 1u);
+    EXPECT_NEAR(area_mm2(layer[0]), 400, 1e-3);
+  }
+}
+
 TEST(Slices, CompensationMovesTheOutsideButNotTheBorderBetweenColours) {
   const Part parts[] = {part(box_mesh({0, 0, 0}, {20, 20, 5}), 0), part(box_mesh({20, 0, 0}, {40, 20, 5}), 1)};
   for (const double delta : {0.2, -0.2}) {
