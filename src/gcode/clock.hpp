@@ -9,12 +9,8 @@
 #include <vector>
 
 #include "base/motion.hpp"
-#include "model/config.hpp"
 
 namespace cleancolor {
-
-/// The printer's limits; an acceleration of 0 along moves of one kind means no limit but those of the axes.
-MotionLimits motion_limits(const Config& config);
 
 class Clock {
  public:

@@ -12,6 +12,7 @@
 
 #include "base/output_file.hpp"
 #include "gcode/print.hpp"
+#include "model/motion_limits.hpp"
 
 namespace cleancolor {
 namespace {

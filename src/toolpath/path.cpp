@@ -89,9 +89,22 @@ std::string_view role_name(Role role) {
     case Role::skirt_brim:
       return "Skirt/Brim";
     case Role::prime:
+    case Role::refill:
       return "Skirt/Brim";
+    case Role::ironing:
+      return "Ironing";
+    case Role::support:
+      return "Support material";
+    case Role::support_interface:
+      return "Support material interface";
+    case Role::wipe_tower:
+      return "Wipe tower";
+    case Role::custom:
+      return "Custom";
+    case Role::unknown:
+      return "Unknown";
   }
-  return "Custom";
+  return "Unknown";
 }
 
 }  // namespace cleancolor

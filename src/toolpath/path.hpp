@@ -26,8 +26,32 @@ enum class Role : std::uint8_t {
   gap_fill,
   skirt_brim,
   prime,
+  // Only in G-code of other slicers.
+  ironing,
+  support,
+  support_interface,
+  wipe_tower,
+  refill,   // plastic pushed on the way, in the corridor of a rampart
+  custom,   // the user's own code
+  unknown,  // the file does not say
 };
-inline constexpr int role_count = 10;
+inline constexpr int role_count = 17;
+
+/// Plastic that is not the part's: it wipes nozzles and fills them, and is thrown away.
+constexpr bool is_auxiliary(Role role) {
+  switch (role) {
+    case Role::skirt_brim:
+    case Role::prime:
+    case Role::support:
+    case Role::support_interface:
+    case Role::wipe_tower:
+    case Role::refill:
+    case Role::custom:
+      return true;
+    default:
+      return false;
+  }
+}
 
 /// What is laid down: the cross-section of the plastic and how fast the nozzle goes.
 struct Road {

@@ -1,0 +1,1 @@
+#include "audit/offset_guess.hpp"

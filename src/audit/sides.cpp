@@ -1,0 +1,1 @@
+#include "audit/sides.hpp"

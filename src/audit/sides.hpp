@@ -1,0 +1,25 @@
+// audit/sides.hpp
+//
+// The print from four sides, as it will come out: predicted smears in the colour of the nozzle that leaves them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "audit/audit.hpp"
+#include "audit/machine.hpp"
+
+namespace cleancolor {
+
+struct Side {
+  std::string name;  // "front", "right", "back", "left"
+  std::string png;
+};
+
+/// One picture from each side, a little from above, of the printed part's voxels in the colours of their nozzles; a
+/// place where ooze is left takes on the colour of its nozzle, the more the more is left; holes are dark. Requires:
+/// scenario < result.scenarios.size().
+std::vector<Side> sides(const GcodePrint& print, const AuditMachine& machine, const AuditResult& result,
+                        std::size_t scenario, int width_px = 420);
+
+}  // namespace cleancolor
