@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 
 import models
+from markdown import replace_between_markers
 from plastic import NOT_THE_PART, plastic, plastic_per_tool
 
 WALL_RATIO_EACH, WALL_RATIO_MEDIAN = 0.8, 0.5
@@ -142,19 +143,11 @@ def write_markdown(results, rounds):
     median = statistics.median(ours["wall_s"] / prusa["wall_s"] for prusa, ours in results.values())
     rows = "\n".join(table_row(name, *pair) for name, pair in results.items())
     table = f"{HEADER}\n{rows}\n\nMedian ratio of wall time: {median:.2f}.\n"
-    (models.ROOT / "docs").mkdir(exist_ok=True)
-    (models.ROOT / "docs" / "benchmarks.md").write_text(
-        "# Benchmarks\n\nMade by `scripts/bench --write`; do not edit.\n\n"
-        "Both slicers read the same two meshes and the same settings: 0.3 mm layers, 0.4 mm nozzles, 2 perimeters,\n"
-        "20 % rectilinear infill, thin walls and gap fill off. They run in turns on the same machine; a figure is the\n"
-        f"median of {rounds} rounds. Two figures: PrusaSlicer / cleancolor. Plastic is what the part itself takes, by\n"
-        "the G-code; the difference is against PrusaSlicer's.\n"
-        f"Machine: {os.cpu_count()} cores, {platform.machine()}; PrusaSlicer 2.5.0 as in Debian 12.\n\n{table}")
-    readme = models.ROOT / "README.md"
-    begin, end = "<!-- scripts/bench --write -->\n", "<!-- end -->"
-    text = readme.read_text()
-    before, rest = text.split(begin)
-    readme.write_text(before + begin + table + rest[rest.index(end):])
+    notes = (
+        f"A figure is the median of {rounds} rounds; two figures: PrusaSlicer / cleancolor. Machine: {os.cpu_count()} cores, "
+        f"{platform.machine()}.\n\n")
+    replace_between_markers(models.ROOT / "docs" / "benchmarks.md", "scripts/bench --write", notes + table)
+    replace_between_markers(models.ROOT / "README.md", "scripts/bench --write", table)
 
 
 def main():
