@@ -1,1 +1,250 @@
 #include "audit/visibility.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr int period = 8;  // steps after which a ray is in the middle of a voxel again
+
+/// So many voxels in `period` steps; the largest of the three is the period itself.
+struct Direction {
+  int x = 0, y = 0, z = 0;
+
+  /// The voxel after so many steps; exact where steps is a multiple of the period.
+  Direction after(int steps) const {
+    const auto rounded = [&](int c) { return int(std::lround(double(c) * steps / period)); };
+    return {rounded(x), rounded(y), rounded(z)};
+  }
+};
+
+/// All permutations and signs of (8, 6, 3) and (8, 3, 1). No part is 0 and no two are equal, so that no ray runs along
+/// a wall of the grid or of its diagonals: as many rays pass on either side. Of all pairs of such triples these two
+/// count random corners, lunes and caps best (RMS of the share of a half sphere 0.05, 0 and 0.024).
+std::vector<Direction> directions() {
+  std::vector<Direction> all;
+  for (std::array<int, 3> c : {std::array{3, 6, 8}, std::array{1, 3, 8}}) {
+    do {
+      for (int s = 0; s < 8; ++s)
+        all.push_back({s & 1 ? -c[0] : c[0], s & 2 ? -c[1] : c[1], s & 4 ? -c[2] : c[2]});
+    } while (std::next_permutation(c.begin(), c.end()));
+  }
+  return all;
+}
+constexpr int direction_count = 96;
+constexpr std::size_t digits = 7;  // of counts up to 96
+
+/// Steps of a ray of this length.
+int steps_of(const Direction& d, double reach_mm, double voxel_mm) {
+  const double step_mm = voxel_mm * length(Vec3{double(d.x), double(d.y), double(d.z)}) / period;
+  return std::max(1, int(std::lround(reach_mm / step_mm)));
+}
+
+/// Words [first, first + to.size()) of the string |= the string shifted: bit i |= bit i + shift of from.
+void or_shifted(std::span<std::uint64_t> to, std::int64_t first, std::span<const std::uint64_t> from,
+                std::int64_t shift) {
+  const std::int64_t q = first + (shift >> 6), size = std::int64_t(from.size()), count = std::int64_t(to.size());
+  const int r = int(shift & 63);
+  // The words that need no look at the ends of the string.
+  const std::int64_t begin = std::clamp<std::int64_t>(-q, 0, count), end = std::clamp(size - 1 - q, begin, count);
+  for (std::int64_t i = 0; i < begin; ++i) to[std::size_t(i)] |= shifted_word(from, first + i, shift);
+  for (std::int64_t i = end; i < count; ++i) to[std::size_t(i)] |= shifted_word(from, first + i, shift);
+  std::uint64_t* const out = to.data();
+  const std::uint64_t* const in = from.data() + q;
+  if (r == 0)
+    for (std::int64_t i = begin; i < end; ++i) out[i] |= in[i];
+  else
+    for (std::int64_t i = begin; i < end; ++i) out[i] |= in[i] >> r | in[i + 1] << (64 - r);
+}
+
+/// Where rays of one direction meet plastic, for all voxels at once.
+class Rays {
+ public:
+  explicit Rays(const Voxels& v) : v_(v), met_(v.solid.size()) {}
+
+  /// Bit i: a ray of n steps from voxel i meets plastic (the bed not counted).
+  const BitWords& met(const Direction& d, int n) {
+    first_steps(d, std::min(n, period));
+    int done = std::min(n, period);
+    for (; 2 * done <= n; done *= 2) join(d.after(done));
+    if (done < n) join(d.after(n - done));
+    return met_;
+  }
+
+ private:
+  static constexpr std::int64_t piece = 512;  // words that are worked on at a time: they stay in the cache
+
+  std::int64_t shift(const Direction& d) const { return v_.index(d.x, d.y, d.z); }
+
+  void first_steps(const Direction& d, int n) {
+    for (std::int64_t w = 0; w < size(); w += piece) {
+      const std::span<std::uint64_t> to(met_.data() + w, std::size_t(std::min(piece, size() - w)));
+      std::fill(to.begin(), to.end(), 0);
+      for (int k = 1; k <= n; ++k) or_shifted(to, w, v_.solid, shift(d.after(k)));
+    }
+  }
+
+  /// A ray that was as long as n steps goes on with the ray of the voxel d away. In place: pieces are done in the order
+  /// in which they do not read what is done already.
+  void join(const Direction& d) {
+    const std::int64_t by = shift(d);
+    std::array<std::uint64_t, piece> buffer;
+    const std::int64_t pieces = (size() + piece - 1) / piece;
+    for (std::int64_t k = 0; k < pieces; ++k) {
+      const std::int64_t w = (by > 0 ? k : pieces - 1 - k) * piece, count = std::min(piece, size() - w);
+      const std::span<std::uint64_t> to(buffer.data(), std::size_t(count));
+      std::copy_n(met_.begin() + w, count, to.begin());
+      or_shifted(to, w, met_, by);
+      std::copy_n(to.begin(), count, met_.begin() + w);
+    }
+  }
+
+  std::int64_t size() const { return std::int64_t(met_.size()); }
+
+  const Voxels& v_;
+  BitWords met_;
+};
+
+/// 64 counters in columns: digit k of counter b is bit b of word k.
+using Counters = std::array<std::uint64_t, digits>;
+
+void count(Counters& counters, std::uint64_t ones) {
+  for (std::uint64_t& digit : counters) {
+    const std::uint64_t carry = digit & ones;
+    digit ^= ones;
+    ones = carry;
+  }
+}
+
+int counted(const Counters& counters, int b) {
+  int n = 0;
+  for (std::size_t k = 0; k < digits; ++k) n |= int(counters[k] >> b & 1) << k;
+  return n;
+}
+
+/// A word of the grid with air that touches plastic.
+struct SurfaceWord {
+  std::int64_t word = 0;
+  std::uint64_t bits = 0;
+};
+
+/// Open rays of all voxels of the surface, by every `stride`-th direction from `first` on.
+std::vector<Counters> open_rays(const Voxels& v, std::span<const SurfaceWord> surface, double reach_mm, std::size_t first,
+                                std::size_t stride, const Progress& progress) {
+  std::vector<Counters> open(surface.size(), Counters{});
+  const std::vector<Direction> all = directions();
+  Rays rays(v);
+  for (std::size_t k = first; k < all.size(); k += stride) {
+    if (progress.interrupted()) throw Error("interrupted");
+    const Direction d = all[k];
+    const int n = steps_of(d, reach_mm, v.size_mm);
+    const BitWords& met = rays.met(d, n);
+    // The middle of level z is z + 0.5 voxels above the bed.
+    const double falls = -double(d.z) * n / period;
+    const int above_bed = int(std::clamp(std::ceil(falls - 0.5), 0., double(v.levels)));
+    const std::int64_t begin = v.plane_bits / 64 * above_bed;
+    auto at = std::partition_point(surface.begin(), surface.end(), [&](const SurfaceWord& s) { return s.word < begin; });
+    for (; at != surface.end(); ++at)
+      count(open[std::size_t(at - surface.begin())], at->bits & ~met[std::size_t(at->word)]);
+  }
+  return open;
+}
+
+}  // namespace
+
+struct PrintedVisibility::Grid {
+  Voxels voxels;
+  BitWords surface;                  // air that touches plastic
+  std::vector<std::uint32_t> first;  // by word: where its values begin
+  std::vector<std::uint8_t> open;    // open rays of each voxel of the surface, in the order of their bits
+
+  std::vector<SurfaceWord> find_surface();
+  int open_at(std::int64_t i) const {
+    const std::uint64_t below = surface[std::size_t(i >> 6)] & ((std::uint64_t(1) << (i & 63)) - 1);
+    return open[first[std::size_t(i >> 6)] + std::size_t(std::popcount(below))];
+  }
+};
+
+/// Fills surface and first.
+std::vector<SurfaceWord> PrintedVisibility::Grid::find_surface() {
+  std::vector<SurfaceWord> found;
+  surface.resize(voxels.solid.size());
+  first.resize(voxels.solid.size());
+  std::uint32_t values = 0;
+  for (std::size_t w = 0; w < surface.size(); ++w) {
+    surface[w] = voxels.surface(std::int64_t(w));
+    first[w] = values;
+    values += std::uint32_t(std::popcount(surface[w]));
+    if (surface[w] != 0) found.push_back({std::int64_t(w), surface[w]});
+  }
+  open.resize(values);
+  return found;
+}
+
+PrintedVisibility::PrintedVisibility(int layers, const PartLayers& layer, const VisibilityOptions& options, int threads,
+                                     const Progress& progress)
+    : grid_(std::make_unique<Grid>()) {
+  Grid& g = *grid_;
+  g.voxels = cleancolor::voxels(layers, layer, options.voxel_mm, options.reach_mm, threads, progress);
+  const std::vector<SurfaceWord> surface = g.find_surface();
+
+  // Each worker needs a string of its own: few where strings are long.
+  const double string_mb = double(g.voxels.solid.size()) * 8e-6;
+  const int workers = std::clamp(int(40 / std::max(string_mb, 1e-3)), 1, std::clamp(thread_count(threads), 1, 16));
+  std::vector<std::vector<Counters>> open{std::size_t(workers)};
+  parallel_for(workers, threads, [&](int i) {
+    open[std::size_t(i)] = open_rays(g.voxels, surface, options.reach_mm, std::size_t(i), std::size_t(workers), progress);
+  });
+
+  std::size_t value = 0;
+  for (std::size_t s = 0; s < surface.size(); ++s)
+    for (std::uint64_t bits = surface[s].bits; bits != 0; bits &= bits - 1, ++value)
+      for (const auto& part : open) g.open[value] += std::uint8_t(counted(part[s], std::countr_zero(bits)));
+}
+
+PrintedVisibility::~PrintedVisibility() = default;
+PrintedVisibility::PrintedVisibility(PrintedVisibility&&) noexcept = default;
+
+double PrintedVisibility::voxel_mm() const {
+  return grid_->voxels.size_mm;
+}
+
+double PrintedVisibility::at(Vec3 p_mm) const {
+  const Grid& g = *grid_;
+  const Voxels& v = g.voxels;
+  if (v.levels == 0) return 1;
+  const Vec3 p = (p_mm - v.origin_mm) * (1 / v.size_mm);
+  // Each voxel of the surface near the point weighs the more the nearer its middle is: the mean over a width of 3
+  // voxels, so that steps of the grid at slanting walls even out.
+  constexpr double reach = 1.75;
+  const auto low = [](double c) { return int(std::floor(std::clamp(c - reach + 0.5, -2., 2e9))); };
+  const auto weight = [&](double c, int i) { return std::max(0., reach - std::abs(i + 0.5 - c)); };
+  constexpr int width = 4;
+  const int x0 = low(p.x), y0 = low(p.y), z0 = low(p.z);
+  double sum = 0, weights = 0;
+  bool plastic = false;
+  for (int z = std::max(z0, 0); z < std::min(z0 + width, v.levels); ++z)
+    for (int y = std::max(y0, 0); y < std::min(y0 + width, v.rows); ++y)
+      for (int x = std::max(x0, 0); x < std::min(x0 + width, v.columns); ++x) {
+        const std::int64_t i = v.index(x, y, z);
+        plastic = plastic || bit(v.solid, i);
+        if (!bit(g.surface, i)) continue;
+        const double w = weight(p.x, x) * weight(p.y, y) * weight(p.z, z);
+        sum += w * g.open_at(i);
+        weights += w;
+      }
+  if (weights > 0) return std::min(1., 2 * sum / (weights * direction_count));
+  return plastic ? 0 : 1;
+}
+
+std::vector<PrintedVisibility::Face> PrintedVisibility::faces() const { return {}; }
+
+}  // namespace cleancolor

@@ -6,43 +6,39 @@
 //
 // 1: nothing hides it; 0: buried. The share of the open half sphere above the surface that reaches the outside within
 // 25 mm, all directions counting alike; the bed is opaque. Auxiliary plastic hides nothing: it is thrown away.
-// Differs from audit to audit only by the file: directions are fixed, no random numbers.
+//
+// From the middle of every voxel of outside air that touches plastic, 96 rays go out; a point takes the mean of those
+// around it, twice: a surface hides half of the sphere by itself. The directions are fixed, whole numbers of voxels in
+// 8 steps, and symmetric to all axes, planes and diagonals of the grid; so all voxels follow one direction at once, 64
+// to a word, and a ray of 2 n steps is one of n steps and one of n steps behind it.
+// Error: at flat walls, slopes and corners of any angle, mean below 0.03 and RMS about 0.05 (tests and
+// bench/visibility_bench.cpp).
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
+#include "audit/voxels.hpp"
 #include "base/progress.hpp"
 #include "base/vec.hpp"
 
 namespace cleancolor {
 
-struct PartRoad {
-  Vec2 a_mm, b_mm;
-  float width_mm = 0;
-  std::uint8_t nozzle = 0;
-};
-
-struct PartLayer {
-  double bottom_mm = 0, top_mm = 0;
-  std::vector<PartRoad> roads;
-};
-
 struct VisibilityOptions {
-  double voxel_mm = 0.5;
-  int directions = 64;  // over the whole sphere
+  double voxel_mm = 0.5;  // larger where the part would need more than 10^8 of them
   double reach_mm = 25;
 };
 
 class PrintedVisibility {
  public:
   /// layer(i): the roads of layer i, ascending; called once for each, from several threads.
-  /// Same values for any number of threads.
-  PrintedVisibility(int layers, const std::function<PartLayer(int)>& layer, const VisibilityOptions& options,
-                    int threads, const Progress& progress = {});
+  /// Same values for any number of threads.  Requires: finite roads; options > 0.
+  /// Cost: 1 s of CPU for about 3 10^8 voxels of the part's box (with 25 mm of air at two sides), and 60 ns a road;
+  /// memory: 24 bytes a road, and about 1 byte a voxel; at most 150 MB.
+  PrintedVisibility(int layers, const PartLayers& layer, const VisibilityOptions& options, int threads,
+                    const Progress& progress = {});
   ~PrintedVisibility();
   PrintedVisibility(PrintedVisibility&&) noexcept;
 
