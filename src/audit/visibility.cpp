@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
@@ -31,16 +32,19 @@ struct Direction {
 /// count random corners, lunes and caps best (RMS of the share of a half sphere 0.05, 0 and 0.024).
 std::vector<Direction> directions() {
   std::vector<Direction> all;
-  for (std::array<int, 3> c : {std::array{3, 6, 8}, std::array{1, 3, 8}}) {
+  for (std::array<int, 3> c : {std::array{1, 2, 8}, {1, 5, 8}, {3, 7, 8}, {4, 5, 8}}) {
     do {
-      for (int s = 0; s < 8; ++s)
-        all.push_back({s & 1 ? -c[0] : c[0], s & 2 ? -c[1] : c[1], s & 4 ? -c[2] : c[2]});
+      for (int s = 0; s < 8; ++s) all.push_back({s & 1 ? -c[0] : c[0], s & 2 ? -c[1] : c[1], s & 4 ? -c[2] : c[2]});
     } while (std::next_permutation(c.begin(), c.end()));
   }
   return all;
 }
-constexpr int direction_count = 96;
-constexpr std::size_t digits = 7;  // of counts up to 96
+constexpr int direction_count = 192;
+constexpr std::size_t digits = 8;  // of counts up to 192
+
+/// Share of a surface's rays that the steps of the grid stop where the surface itself is smooth: the mean over walls
+/// and slopes of all angles (0 where they run along the grid).
+constexpr double hidden_by_steps = 0.04;
 
 /// Steps of a ray of this length.
 int steps_of(const Direction& d, double reach_mm, double voxel_mm) {
@@ -137,8 +141,8 @@ struct SurfaceWord {
 };
 
 /// Open rays of all voxels of the surface, by every `stride`-th direction from `first` on.
-std::vector<Counters> open_rays(const Voxels& v, std::span<const SurfaceWord> surface, double reach_mm, std::size_t first,
-                                std::size_t stride, const Progress& progress) {
+std::vector<Counters> open_rays(const Voxels& v, std::span<const SurfaceWord> surface, double reach_mm,
+                                std::size_t first, std::size_t stride, const Progress& progress) {
   std::vector<Counters> open(surface.size(), Counters{});
   const std::vector<Direction> all = directions();
   Rays rays(v);
@@ -151,7 +155,8 @@ std::vector<Counters> open_rays(const Voxels& v, std::span<const SurfaceWord> su
     const double falls = -double(d.z) * n / period;
     const int above_bed = int(std::clamp(std::ceil(falls - 0.5), 0., double(v.levels)));
     const std::int64_t begin = v.plane_bits / 64 * above_bed;
-    auto at = std::partition_point(surface.begin(), surface.end(), [&](const SurfaceWord& s) { return s.word < begin; });
+    auto at =
+        std::partition_point(surface.begin(), surface.end(), [&](const SurfaceWord& s) { return s.word < begin; });
     for (; at != surface.end(); ++at)
       count(open[std::size_t(at - surface.begin())], at->bits & ~met[std::size_t(at->word)]);
   }
@@ -160,27 +165,103 @@ std::vector<Counters> open_rays(const Voxels& v, std::span<const SurfaceWord> su
 
 }  // namespace
 
+/// What lies around a point.
+struct Near {
+  double open = 0;  // weighted sum of the open rays of the surface
+  double weight = 0;
+  bool plastic = false;
+};
+
 struct PrintedVisibility::Grid {
-  Voxels voxels;
-  BitWords surface;                  // air that touches plastic
+  Voxels fine;                       // shows which roads are bare
+  double depth_mm = 0;               // of the centre line of a bare road below the fine air
+  Voxels rays;                       // coarser
+  BitWords surface;                  // air that touches plastic, of `rays`
   std::vector<std::uint32_t> first;  // by word: where its values begin
   std::vector<std::uint8_t> open;    // open rays of each voxel of the surface, in the order of their bits
 
   std::vector<SurfaceWord> find_surface();
+  std::optional<Vec3> next_air(Vec3 p_mm) const;
+  Near near(Vec3 p) const;
   int open_at(std::int64_t i) const {
     const std::uint64_t below = surface[std::size_t(i >> 6)] & ((std::uint64_t(1) << (i & 63)) - 1);
     return open[first[std::size_t(i >> 6)] + std::size_t(std::popcount(below))];
   }
 };
 
+namespace {
+
+/// Voxels of an axis whose middle is at most reach (in voxels) from c.
+struct Range {
+  int first, last;
+  Range(double c, double reach, int count) {
+    c = std::clamp(c, -1e6, 1e9);
+    first = std::max(0, int(std::ceil(c - reach - 0.5)));
+    last = std::min(count - 1, int(std::floor(c + reach - 0.5)));
+  }
+};
+
+/// Calls visit(x) for the bits set in columns [first, last] of the row that begins at bit `row`; at most 64 columns.
+template <class Visit>
+void for_bits(const BitWords& words, std::int64_t row, Range x, Visit visit) {
+  if (x.first > x.last) return;
+  std::uint64_t bits = shifted_word(words, 0, row + x.first);
+  bits &= ~std::uint64_t(0) >> (63 - (x.last - x.first));
+  for (; bits != 0; bits &= bits - 1) visit(x.first + std::countr_zero(bits));
+}
+
+}  // namespace
+
+/// The point itself where it lies in the air, else the middle of the nearest fine voxel of air if that is near enough.
+std::optional<Vec3> PrintedVisibility::Grid::next_air(Vec3 p_mm) const {
+  const Vec3 p = (p_mm - fine.origin_mm) * (1 / fine.size_mm);
+  const double inside = std::min({p.x, p.y, p.z, fine.columns - p.x, fine.rows - p.y, fine.levels - p.z});
+  if (!(inside > 0) || bit(fine.outside, fine.index(int(p.x), int(p.y), int(p.z)))) return p_mm;
+  const double reach = depth_mm / fine.size_mm;
+  const Range x(p.x, reach, fine.columns), y(p.y, reach, fine.rows), z(p.z, reach, fine.levels);
+  double best = reach * reach;
+  std::optional<Vec3> found;
+  for (int k = z.first; k <= z.last; ++k)
+    for (int j = y.first; j <= y.last; ++j)
+      for_bits(fine.outside, fine.index(0, j, k), x, [&](int i) {
+        const Vec3 middle{i + 0.5, j + 0.5, k + 0.5};
+        const double d = dot(middle - p, middle - p);
+        if (d > best || (found && d == best)) return;
+        best = d;
+        found = middle;
+      });
+  if (found) found = *found * fine.size_mm + fine.origin_mm;
+  return found;
+}
+
+/// Voxels of the surface weigh the more the nearer their middle is to p (in voxels): the mean over a width of 3.5
+/// voxels, so that the steps of slanting walls even out.
+Near PrintedVisibility::Grid::near(Vec3 p) const {
+  constexpr double reach = 1.75;
+  const auto weight = [&](double c, int i) { return reach - std::abs(i + 0.5 - c); };
+  const Range x(p.x, reach, rays.columns), y(p.y, reach, rays.rows), z(p.z, reach, rays.levels);
+  Near near;
+  for (int k = z.first; k <= z.last; ++k)
+    for (int j = y.first; j <= y.last; ++j) {
+      const std::int64_t row = rays.index(0, j, k);
+      for_bits(rays.solid, row, x, [&](int) { near.plastic = true; });
+      for_bits(surface, row, x, [&](int i) {
+        const double w = weight(p.x, i) * weight(p.y, j) * weight(p.z, k);
+        near.open += w * open_at(row + i);
+        near.weight += w;
+      });
+    }
+  return near;
+}
+
 /// Fills surface and first.
 std::vector<SurfaceWord> PrintedVisibility::Grid::find_surface() {
   std::vector<SurfaceWord> found;
-  surface.resize(voxels.solid.size());
-  first.resize(voxels.solid.size());
+  surface.resize(rays.solid.size());
+  first.resize(rays.solid.size());
   std::uint32_t values = 0;
   for (std::size_t w = 0; w < surface.size(); ++w) {
-    surface[w] = voxels.surface(std::int64_t(w));
+    surface[w] = rays.surface(std::int64_t(w));
     first[w] = values;
     values += std::uint32_t(std::popcount(surface[w]));
     if (surface[w] != 0) found.push_back({std::int64_t(w), surface[w]});
@@ -193,15 +274,23 @@ PrintedVisibility::PrintedVisibility(int layers, const PartLayers& layer, const 
                                      const Progress& progress)
     : grid_(std::make_unique<Grid>()) {
   Grid& g = *grid_;
-  g.voxels = cleancolor::voxels(layers, layer, options.voxel_mm, options.reach_mm, threads, progress);
+  {
+    const PartRoads part = part_roads(layers, layer, threads, progress);
+    g.fine = voxels(part, {.size_mm = options.fine_mm, .most = 3e8}, threads, progress);
+    // Further away than its own half and a good voxel is the air only where another road lies in front of this one.
+    g.depth_mm = part.mean_width_mm / 2 + 1.25 * g.fine.size_mm;
+    g.fine.solid = {};
+    g.rays = voxels(part, {.size_mm = options.voxel_mm, .reach_mm = options.reach_mm, .most = 8e7, .nozzles = true},
+                    threads, progress);
+  }
   const std::vector<SurfaceWord> surface = g.find_surface();
 
   // Each worker needs a string of its own: few where strings are long.
-  const double string_mb = double(g.voxels.solid.size()) * 8e-6;
+  const double string_mb = double(g.rays.solid.size()) * 8e-6;
   const int workers = std::clamp(int(40 / std::max(string_mb, 1e-3)), 1, std::clamp(thread_count(threads), 1, 16));
   std::vector<std::vector<Counters>> open{std::size_t(workers)};
   parallel_for(workers, threads, [&](int i) {
-    open[std::size_t(i)] = open_rays(g.voxels, surface, options.reach_mm, std::size_t(i), std::size_t(workers), progress);
+    open[std::size_t(i)] = open_rays(g.rays, surface, options.reach_mm, std::size_t(i), std::size_t(workers), progress);
   });
 
   std::size_t value = 0;
@@ -214,37 +303,21 @@ PrintedVisibility::~PrintedVisibility() = default;
 PrintedVisibility::PrintedVisibility(PrintedVisibility&&) noexcept = default;
 
 double PrintedVisibility::voxel_mm() const {
-  return grid_->voxels.size_mm;
+  return grid_->rays.size_mm;
 }
 
 double PrintedVisibility::at(Vec3 p_mm) const {
   const Grid& g = *grid_;
-  const Voxels& v = g.voxels;
-  if (v.levels == 0) return 1;
-  const Vec3 p = (p_mm - v.origin_mm) * (1 / v.size_mm);
-  // Each voxel of the surface near the point weighs the more the nearer its middle is: the mean over a width of 3
-  // voxels, so that steps of the grid at slanting walls even out.
-  constexpr double reach = 1.75;
-  const auto low = [](double c) { return int(std::floor(std::clamp(c - reach + 0.5, -2., 2e9))); };
-  const auto weight = [&](double c, int i) { return std::max(0., reach - std::abs(i + 0.5 - c)); };
-  constexpr int width = 4;
-  const int x0 = low(p.x), y0 = low(p.y), z0 = low(p.z);
-  double sum = 0, weights = 0;
-  bool plastic = false;
-  for (int z = std::max(z0, 0); z < std::min(z0 + width, v.levels); ++z)
-    for (int y = std::max(y0, 0); y < std::min(y0 + width, v.rows); ++y)
-      for (int x = std::max(x0, 0); x < std::min(x0 + width, v.columns); ++x) {
-        const std::int64_t i = v.index(x, y, z);
-        plastic = plastic || bit(v.solid, i);
-        if (!bit(g.surface, i)) continue;
-        const double w = weight(p.x, x) * weight(p.y, y) * weight(p.z, z);
-        sum += w * g.open_at(i);
-        weights += w;
-      }
-  if (weights > 0) return std::min(1., 2 * sum / (weights * direction_count));
-  return plastic ? 0 : 1;
+  if (g.rays.levels == 0) return 1;
+  const std::optional<Vec3> air_mm = g.next_air(p_mm);
+  if (!air_mm) return 0;
+  const Near near = g.near((*air_mm - g.rays.origin_mm) * (1 / g.rays.size_mm));
+  if (near.weight == 0) return near.plastic ? 0 : 1;
+  return std::min(1., 2 / (1 - hidden_by_steps) * near.open / (near.weight * direction_count));
 }
 
-std::vector<PrintedVisibility::Face> PrintedVisibility::faces() const { return {}; }
+std::vector<PrintedVisibility::Face> PrintedVisibility::faces() const {
+  return {};
+}
 
 }  // namespace cleancolor

@@ -27,7 +27,8 @@
 namespace cleancolor {
 
 struct VisibilityOptions {
-  double voxel_mm = 0.5;  // larger where the part would need more than 10^8 of them
+  double voxel_mm = 0.5;  // of the rays; larger where the part would need too many
+  double fine_mm = 0.25;  // of the voxels that show which roads are bare; likewise
   double reach_mm = 25;
 };
 
