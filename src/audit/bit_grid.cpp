@@ -148,10 +148,11 @@ void flood(std::span<std::uint64_t> reached, std::span<const std::uint64_t> soli
     seeds = grown(seeds, open);
     if (seeds == word) return;
     word = seeds;
+    // The neighbours along the row within the word are reached already; those in other rows can lie in it too.
     for (std::size_t k = 0; k < neighbours; ++k) {
       const std::int64_t near = w + (shifts[k] >> 6);
-      if (near != w) dirty.mark(near);
-      if ((shifts[k] & 63) != 0 && near + 1 != w) dirty.mark(near + 1);
+      if (near != w || k >= 2) dirty.mark(near);
+      if ((shifts[k] & 63) != 0 && (near + 1 != w || k >= 2)) dirty.mark(near + 1);
     }
   };
   for (bool ascending = true; dirty.sweep(ascending, visit);) ascending = !ascending;
