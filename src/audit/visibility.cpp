@@ -302,19 +302,19 @@ PrintedVisibility::PrintedVisibility(int layers, const PartLayers& layer, const 
   Grid& g = *grid_;
   {
     const PartRoads part = part_roads(layers, layer, threads, progress);
-    g.fine = cleancolor::voxels(part, {.size_mm = options.fine_mm, .most = 3e8}, threads, progress);
+    g.fine = cleancolor::voxels(part, {.size_mm = options.fine_mm, .most = 2e8}, threads, progress);
     // Further away than its own half and a good voxel is the air only where another road lies in front of this one.
     g.depth_mm = part.mean_width_mm / 2 + 1.25 * g.fine.size_mm;
     g.fine.solid = {};
     g.rays = cleancolor::voxels(
-        part, {.size_mm = options.voxel_mm, .reach_mm = options.reach_mm, .most = 8e7, .nozzles = true}, threads,
+        part, {.size_mm = options.voxel_mm, .reach_mm = options.reach_mm, .most = 6e7, .nozzles = true}, threads,
         progress);
   }
   const std::vector<SurfaceWord> surface = g.find_surface();
 
-  // Each worker needs a string of its own: few where strings are long.
-  const double string_mb = double(g.rays.solid.size()) * 8e-6;
-  const int workers = std::clamp(int(40 / std::max(string_mb, 1e-3)), 1, std::clamp(thread_count(threads), 1, 16));
+  // Each worker needs a string and counters of its own: few where these are large.
+  const double worker_mb = double(g.rays.solid.size()) * 8e-6 + double(surface.size() * sizeof(Counters)) * 1e-6;
+  const int workers = std::clamp(int(60 / std::max(worker_mb, 1e-3)), 1, std::clamp(thread_count(threads), 1, 16));
   std::vector<std::vector<Counters>> open{std::size_t(workers)};
   parallel_for(workers, threads, [&](int i) {
     open[std::size_t(i)] = open_rays(g.rays, surface, options.reach_mm, std::size_t(i), std::size_t(workers), progress);
@@ -341,6 +341,13 @@ double PrintedVisibility::at(Vec3 p_mm) const {
   const Near near = g.near((*air_mm - g.rays.origin_mm) * (1 / g.rays.size_mm));
   if (near.weight == 0) return near.plastic ? 0 : 1;
   return std::min(1., 2 / (1 - hidden_by_steps) * near.open / (near.weight * direction_count));
+}
+
+double PrintedVisibility::at(Vec3 p_mm, Vec2 a_mm, Vec2 b_mm) const {
+  const Vec2 ab = b_mm - a_mm, p{p_mm.x, p_mm.y};
+  const double l2 = length_squared(ab);
+  const Vec2 q = a_mm + ab * (l2 > 0 ? std::clamp(dot(p - a_mm, ab) / l2, 0., 1.) : 0);
+  return at({q.x, q.y, p_mm.z});
 }
 
 const Voxels& PrintedVisibility::voxels() const {

@@ -165,6 +165,17 @@ TEST(Visibility, IsNoneBehindAnotherRoad) {
   }
 }
 
+TEST(Visibility, OfARoadIsTheSameAcrossItsWidth) {
+  const Frame f{{0.3, 0.1}, {0.96, 0.28}, {-0.28, 0.96}};
+  const auto v = prism(block(f, -30, 30, -3, 0), 60);
+  const Vec2 a = f.at(-30, 0), b = f.at(30, 0);
+  const double middle = v.at(f.at(1, 0, top(30)));
+  EXPECT_GT(middle, 0.5);
+  for (const double aside : {-0.2, -0.1, 0.1, 0.2})
+    EXPECT_NEAR(v.at(f.at(1, aside, top(30)), a, b), middle, 1e-9) << aside;
+  EXPECT_NEAR(v.at(f.at(31, 0, top(30)), a, b), v.at(f.at(30, 0, top(30))), 1e-9) << "behind its end";
+}
+
 // A box of one line, 0.4 mm wide, with a gap of 0.2 mm at its seam; a line across its hollow.
 TEST(Visibility, DoesNotEnterAHollowThroughAThinWall) {
   std::mt19937 random(6);
