@@ -1,1 +1,228 @@
 #include "reader/dialect.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "model/text_scan.hpp"
+
+namespace cleancolor {
+namespace {
+
+struct RoleName {
+  std::string_view name;
+  Role role;
+};
+
+// ;TYPE: of PrusaSlicer and its relatives, ;TYPE: and FEATURE: of OrcaSlicer and BambuStudio, ;TYPE: of Cura and
+// ideaMaker.
+constexpr std::array<RoleName, 56> type_names = {{
+    {"External perimeter", Role::external_perimeter},
+    {"Perimeter", Role::perimeter},
+    {"Overhang perimeter", Role::overhang_perimeter},
+    {"Internal infill", Role::internal_infill},
+    {"Solid infill", Role::solid_infill},
+    {"Top solid infill", Role::top_solid_infill},
+    {"Bridge infill", Role::bridge_infill},
+    {"Internal bridge infill", Role::bridge_infill},
+    {"Gap fill", Role::gap_fill},
+    {"Thin wall", Role::external_perimeter},
+    {"Ironing", Role::ironing},
+    {"Skirt/Brim", Role::skirt_brim},
+    {"Skirt", Role::skirt_brim},
+    {"Brim", Role::skirt_brim},
+    {"Support material", Role::support},
+    {"Support material interface", Role::support_interface},
+    {"Wipe tower", Role::wipe_tower},
+    {"Custom", Role::custom},
+    {"Unknown", Role::unknown},
+    {"Inner wall", Role::perimeter},
+    {"Outer wall", Role::external_perimeter},
+    {"Overhang wall", Role::overhang_perimeter},
+    {"Sparse infill", Role::internal_infill},
+    {"Internal solid infill", Role::solid_infill},
+    {"Top surface", Role::top_solid_infill},
+    {"Bottom surface", Role::solid_infill},
+    {"Bridge", Role::bridge_infill},
+    {"Internal Bridge", Role::bridge_infill},
+    {"Gap infill", Role::gap_fill},
+    {"Support", Role::support},
+    {"Support interface", Role::support_interface},
+    {"Support transition", Role::support},
+    {"Prime tower", Role::wipe_tower},
+    {"Multiple", Role::unknown},
+    {"Undefined", Role::unknown},
+    {"WALL-OUTER", Role::external_perimeter},
+    {"WALL-INNER", Role::perimeter},
+    {"SKIN", Role::solid_infill},
+    {"FILL", Role::internal_infill},
+    {"SUPPORT", Role::support},
+    {"SUPPORT-INTERFACE", Role::support_interface},
+    {"SKIRT", Role::skirt_brim},
+    {"PRIME-TOWER", Role::wipe_tower},
+    {"SOLID-FILL", Role::solid_infill},
+    {"BRIDGE", Role::bridge_infill},
+    {"RAFT", Role::support},
+    {"GAP-FILL", Role::gap_fill},
+    {"WIPE-TOWER", Role::wipe_tower},
+    {"SOLID-BOTTOM", Role::solid_infill},
+    {"SOLID-TOP", Role::top_solid_infill},
+    {"Prime Pillar", Role::wipe_tower},
+    {"Purge", Role::custom},
+    {"Flush", Role::custom},
+    {"Mixed", Role::unknown},
+    {"Floating vertical shell", Role::perimeter},
+    {"Floating interface shell", Role::solid_infill},
+}};
+
+// Simplify3D, with or without "feature".
+constexpr std::array<RoleName, 15> simplify3d_names = {{
+    {"outer perimeter", Role::external_perimeter},
+    {"inner perimeter", Role::perimeter},
+    {"gap fill", Role::gap_fill},
+    {"infill", Role::internal_infill},
+    {"solid layer", Role::solid_infill},
+    {"bridge", Role::bridge_infill},
+    {"support", Role::support},
+    {"dense support", Role::support_interface},
+    {"skirt", Role::skirt_brim},
+    {"brim", Role::skirt_brim},
+    {"raft", Role::support},
+    {"prime pillar", Role::wipe_tower},
+    {"ooze shield", Role::skirt_brim},
+    {"internal single extrusion", Role::perimeter},
+    {"external single extrusion", Role::external_perimeter},
+}};
+
+// KISSlicer: "'Perimeter Path', 0.7 [feed mm/s], ...". A loop is an inner perimeter.
+constexpr std::array<RoleName, 16> kisslicer_names = {{
+    {"Perimeter Path", Role::external_perimeter},
+    {"Loop Path", Role::perimeter},
+    {"Solid Path", Role::solid_infill},
+    {"Crown Path", Role::gap_fill},
+    {"Sparse Infill Path", Role::internal_infill},
+    {"Stacked Sparse Infill Path", Role::internal_infill},
+    {"Support Interface Path", Role::support_interface},
+    {"Support (may Stack) Path", Role::support},
+    {"Support Path", Role::support},
+    {"Raft Path", Role::support},
+    {"Pillar Path", Role::wipe_tower},
+    {"Prime Pillar Path", Role::wipe_tower},
+    {"Skirt Path", Role::skirt_brim},
+    {"Wall Path", Role::skirt_brim},
+    {"Destring/Wipe/Jump Path", Role::custom},
+    {"Travel/Ironing Path", Role::ironing},
+}};
+
+// Slic3r and Simplify3D write the kind behind every move where they are asked to.
+constexpr std::array<RoleName, 8> behind_names = {{
+    {"perimeter", Role::perimeter},
+    {"infill", Role::internal_infill},
+    {"solid infill", Role::solid_infill},
+    {"skirt", Role::skirt_brim},
+    {"brim", Role::skirt_brim},
+    {"support material", Role::support},
+    {"support material interface", Role::support_interface},
+    {"gap fill", Role::gap_fill},
+}};
+
+std::optional<Role> role_of(std::span<const RoleName> names, std::string_view name) {
+  const auto found = std::ranges::find(names, name, &RoleName::name);
+  return found == names.end() ? std::nullopt : std::optional(found->role);
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
+  return text;
+}
+
+/// The number behind a tag; 0 where there is none.
+double told(std::string_view text) {
+  return std::max(0.0, number<double>(trimmed(text)).value_or(0));
+}
+
+/// "H0.200 W0.480" of Simplify3D.
+double letter_value(std::string_view text, char letter) {
+  for (std::size_t at = text.find(letter); at != std::string_view::npos; at = text.find(letter, at + 1)) {
+    std::string_view digits = text.substr(at + 1);
+    digits = digits.substr(0, digits.find(' '));
+    if (const auto value = number<double>(digits)) return std::max(0.0, *value);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void CommentReader::comment(std::string_view text) {
+  text = trimmed(text);
+  if (text.empty()) return;
+  const auto tagged = [&](std::string_view tag) {
+    if (!text.starts_with(tag)) return false;
+    text.remove_prefix(tag.size());
+    return true;
+  };
+  switch (text.front()) {
+    case 'T':
+      if (tagged("TYPE:")) state_.role = role_of(type_names, trimmed(text)).value_or(Role::unknown);
+      break;
+    case 'W':
+      if (tagged("WIDTH:")) state_.width_mm = told(text);
+      if (tagged("WIPE_TOWER_START")) before_tower_ = state_.role, state_.role = Role::wipe_tower;
+      if (tagged("WIPE_TOWER_END") && state_.role == Role::wipe_tower) state_.role = before_tower_;
+      break;
+    case 'H':
+      if (tagged("HEIGHT:")) state_.height_mm = told(text);
+      break;
+    case 'F':
+      if (tagged("FEATURE:")) state_.role = role_of(type_names, trimmed(text)).value_or(Role::unknown);
+      if (tagged("FLUSH_START")) before_tower_ = state_.role, state_.role = Role::custom;
+      if (tagged("FLUSH_END") && state_.role == Role::custom) state_.role = before_tower_;
+      break;
+    case 'L':
+      if (tagged("LINE_WIDTH:")) state_.width_mm = told(text);
+      if (tagged("LAYER_HEIGHT:")) state_.height_mm = told(text);
+      break;
+    case 'M':
+      if (tagged("MESH:")) state_.object = trimmed(text) != "NONMESH";
+      break;
+    case 'R':
+      if (tagged("REFILL_START")) before_tower_ = state_.role, state_.role = Role::refill;
+      if (tagged("REFILL_END") && state_.role == Role::refill) state_.role = before_tower_;
+      if (tagged("RAMPART_WALL:")) state_.role = Role::skirt_brim;
+      break;
+    case 'f':
+      if (tagged("feature ")) state_.role = role_of(simplify3d_names, trimmed(text)).value_or(Role::unknown);
+      break;
+    case 't':
+      if (tagged("tool H")) {
+        state_.height_mm = told(text.substr(0, text.find(' ')));
+        state_.width_mm = letter_value(text, 'W');
+      }
+      break;
+    case '\'':
+      if (const std::size_t end = text.find('\'', 1); end != std::string_view::npos)
+        state_.role = role_of(kisslicer_names, text.substr(1, end - 1)).value_or(Role::unknown);
+      break;
+    case 'B':
+      if (tagged("BEGIN_LAYER_OBJECT ")) {
+        if (const std::size_t at = text.find("z_thickness="); at != std::string_view::npos) {
+          const std::string_view value = text.substr(at + 12);
+          state_.height_mm = told(value.substr(0, value.find(' ')));
+        }
+      }
+      break;
+    default:
+      break;
+  }
+  // Older files of Simplify3D name the feature alone.
+  if (facts_.dialect == Dialect::simplify3d)
+    if (const auto role = role_of(simplify3d_names, text)) state_.role = *role;
+}
+
+void CommentReader::comment_behind_command(std::string_view text) {
+  if (facts_.dialect != Dialect::slic3r && facts_.dialect != Dialect::unknown) return;
+  if (const auto role = role_of(behind_names, trimmed(text))) state_.role = *role;
+}
+
+}  // namespace cleancolor

@@ -40,6 +40,7 @@ class CommentReader {
  private:
   GcodeFacts& facts_;
   CommentState state_;
+  Role before_tower_ = Role::unknown;  // of what a tower, a flush or a refill interrupts
 };
 
 /// Reads the configuration block and the header of the file into the facts: producer, dialect, offsets, filament.

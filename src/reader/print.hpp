@@ -101,6 +101,9 @@ struct GcodeFacts {
   std::vector<Vec2> nozzle_offset_mm;  // as the file tells it, of each nozzle as seen from nozzle 0; empty: it does not
   std::optional<OffsetsIn> offsets_in;       // as the file tells it
   std::string offsets_from;                  // where the file tells it: "extruder_offset of the configuration block"
+  std::vector<Vec2> firmware_offset_mm;      // as the file sets it in the firmware (M218); empty: it does not
+  bool volumetric_e = false;                 // E counts mm3
+  bool per_minute_limits = false;            // M203 and M566 are in mm/min (RepRapFirmware)
   std::vector<double> filament_diameter_mm;  // by tool; empty where the file does not say
   std::vector<double> filament_density_g_cm3;
   std::vector<std::string> filament_colour;  // "#RRGGBB"

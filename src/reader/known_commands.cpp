@@ -1,0 +1,65 @@
+#include "reader/known_commands.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace cleancolor {
+namespace {
+
+// Marlin, RepRapFirmware, Klipper, Sailfish, Prusa, Bambu and what slicers write in their start and end codes.
+constexpr std::array harmless_m = {
+    0,   1,   2,   3,   4,   5,   7,   8,   9,    10,   11,   17,   18,   20,   21,  22,  23,  24,  25,  26,  27,  28,
+    29,  30,  31,  36,  42,  70,  71,  72,  73,   74,   75,   76,   77,   78,   80,  81,  84,  85,  86,  92,  98,  99,
+    101, 102, 103, 105, 106, 107, 110, 111, 112,  113,  114,  115,  117,  118,  119, 120, 121, 122, 123, 126, 127, 128,
+    129, 130, 131, 132, 136, 137, 138, 139, 140,  141,  142,  143,  144,  145,  149, 150, 154, 155, 165, 190, 191, 204,
+    205, 206, 208, 210, 211, 217, 219, 220, 221,  226,  240,  250,  280,  290,  291, 292, 300, 301, 302, 303, 304, 305,
+    307, 308, 320, 321, 322, 350, 355, 376, 400,  401,  402,  403,  404,  405,  406, 407, 408, 409, 412, 413, 420, 421,
+    425, 428, 486, 500, 501, 502, 503, 504, 524,  540,  550,  551,  552,  553,  554, 555, 556, 557, 558, 559, 560, 561,
+    562, 563, 564, 569, 570, 571, 572, 573, 574,  575,  577,  578,  579,  580,  581, 582, 584, 585, 586, 587, 592, 593,
+    600, 601, 602, 603, 605, 622, 623, 665, 666,  669,  671,  672,  700,  701,  702, 703, 704, 705, 706, 707, 708, 709,
+    710, 771, 772, 851, 860, 861, 862, 863, 864,  865,  866,  867,  868,  869,  871, 876, 900, 905, 906, 907, 908, 909,
+    910, 911, 912, 913, 914, 915, 916, 917, 918,  919,  928,  960,  966,  970,  971, 972, 973, 974, 975, 976, 977, 981,
+    982, 983, 984, 991, 995, 997, 998, 999, 1002, 1003, 1004, 1005, 1006, 1007, 1009};
+static_assert(std::ranges::is_sorted(harmless_m));
+
+// Bed levelling, probing, tool lengths, workspaces 1.
+constexpr std::array harmless_g = {15, 17, 26, 27, 30, 31, 32, 33, 34,  35, 39,
+                                   40, 49, 54, 60, 61, 64, 80, 94, 130, 425};
+static_assert(std::ranges::is_sorted(harmless_g));
+
+// Klipper's own and common macros of its users.
+constexpr std::array<std::string_view, 25> harmless_words = {"EXCLUDE_OBJECT_DEFINE",
+                                                             "EXCLUDE_OBJECT_START",
+                                                             "EXCLUDE_OBJECT_END",
+                                                             "SET_PRESSURE_ADVANCE",
+                                                             "SET_FAN_SPEED",
+                                                             "SET_DISPLAY_TEXT",
+                                                             "SET_PRINT_STATS_INFO",
+                                                             "BED_MESH_PROFILE",
+                                                             "BED_MESH_CALIBRATE",
+                                                             "BED_MESH_CLEAR",
+                                                             "TURN_OFF_HEATERS",
+                                                             "SET_PIN",
+                                                             "SET_INPUT_SHAPER",
+                                                             "SET_RETRACTION",
+                                                             "TIMELAPSE_TAKE_FRAME",
+                                                             "RESPOND",
+                                                             "SAVE_GCODE_STATE",
+                                                             "RESTORE_GCODE_STATE",
+                                                             "M117",
+                                                             "STATUS_READY",
+                                                             "SET_IDLE_TIMEOUT",
+                                                             "SET_FILAMENT_SENSOR",
+                                                             "CLEAR_PAUSE",
+                                                             "UPDATE_DELAYED_GCODE",
+                                                             "SET_GCODE_VARIABLE"};
+
+}  // namespace
+
+bool is_harmless(const GcodeLine& line) {
+  if (line.letter == 'M') return std::ranges::binary_search(harmless_m, line.number);
+  if (line.letter == 'G') return std::ranges::binary_search(harmless_g, line.number);
+  return std::ranges::find(harmless_words, line.word) != harmless_words.end();
+}
+
+}  // namespace cleancolor
