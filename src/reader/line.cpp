@@ -57,11 +57,14 @@ const char* decimal(const char* p, const char* end, double& value) {
   return p;
 }
 
-/// The XOR of all bytes before the '*'.
-int checksum(const char* p, const char* star) {
+/// Whether the number behind the '*' is the XOR of all bytes before it, as it has to be where a line has a number.
+bool checksum_holds(const char* p, const char* star, const char* end) {
   unsigned char sum = 0;
   for (; p < star; ++p) sum = static_cast<unsigned char>(sum ^ static_cast<unsigned char>(*p));
-  return sum;
+  double told = -1;
+  const char* rest = decimal(star + 1, end, told);
+  while (rest != nullptr && rest < end && is_blank(*rest)) ++rest;
+  return rest == end && told == sum;
 }
 
 /// Past a comment in parentheses, or to the end of the line.
@@ -83,10 +86,28 @@ const char* past_quotes(const char* p, const char* end) {
   return end;
 }
 
+/// The line without its checksum, in front of or behind the comment; a checksum in front of it has to hold. A '*' in a
+/// comment may be one of its words.
+std::string_view without_checksum(std::string_view numbered, std::optional<std::string_view>& fault) {
+  const std::size_t star = numbered.rfind('*');
+  if (star == numbered.npos) return numbered;
+  const char* const begin = numbered.data();
+  if (checksum_holds(begin, begin + star, begin + numbered.size())) return numbered.substr(0, star);
+  if (star > numbered.find(';')) return numbered;
+  fault = "the checksum is wrong";
+  return numbered.substr(0, star);
+}
+
+/// Letters of a line that goes on with the command before: "X10 Y20" behind a line with G1.
+constexpr bool is_modal(char letter) {
+  return std::string_view("XYZEFIJRAB").find(letter) != std::string_view::npos;
+}
+
 /// "G92", "G92.1", "T0", "T-1" or "SET_FOO"; returns where its arguments begin.
 const char* command(const char* p, const char* end, GcodeLine& line) {
   const char* const first = p;
   const char letter = upper(*p++);
+  if (p < end && !is_letter(*p) && *p != '_' && is_modal(letter)) return first;
   if (p < end && is_digit(*p)) {
     line.letter = letter;
     line.number = 0;
@@ -102,9 +123,46 @@ const char* command(const char* p, const char* end, GcodeLine& line) {
     line.letter = letter;
     return p;
   }
-  while (p < end && (is_letter(*p) || is_digit(*p) || *p == '_' || *p == '.')) ++p;
+  // Whatever else it is ("SET_FOO", "@pause", "<html>"), it ends at the next blank.
+  while (p < end && !is_blank(*p) && *p != ';') ++p;
   line.word = {first, std::size_t(p - first)};
   return p;
+}
+
+/// One parameter, from its letter on; returns what follows it.
+const char* parameter(const char* p, const char* end, GcodeLine& line, std::optional<std::string_view>& fault) {
+  const char letter = upper(*p++);
+  const auto bit = std::uint32_t{1} << (letter - 'A');
+  line.present |= bit;
+  const char* at = p;
+  while (at < end && (*at == ' ' || *at == '=')) ++at;  // "X 10", "P=1" as some write it
+  double value = 0;
+  const char* const after = decimal(at, end, value);
+  if (after == nullptr) return p;
+  line.valued |= bit;
+  line.value[std::size_t(letter - 'A')] = value;
+  if (after < end && (*after == '.' || *after == '-' || *after == '+')) fault = "this is no number";
+  return after;
+}
+
+void parameters(const char* p, const char* end, GcodeLine& line, std::optional<std::string_view>& fault) {
+  const char* const arguments = p;
+  const bool in_words = !line.word.empty();
+  while (p < end && *p != ';') {
+    if (*p == '(') {
+      p = past_parenthesis(p, end);
+    } else if (*p == '"') {
+      p = past_quotes(p, end);
+    } else if (is_letter(*p) && !in_words) {
+      p = parameter(p, end, line, fault);
+    } else {
+      ++p;  // blanks, and ':' between the values of a list
+    }
+  }
+  line.arguments = {arguments, std::size_t(p - arguments)};
+  if (p == end) return;
+  line.has_comment = true;
+  line.comment = {p + 1, std::size_t(end - p - 1)};
 }
 
 }  // namespace
@@ -116,72 +174,22 @@ std::optional<std::string_view> parse_line(std::string_view text, GcodeLine& lin
   line.present = line.valued = 0;
   std::optional<std::string_view> fault;
 
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  if (text.ends_with('\r')) text.remove_suffix(1);
+  const bool numbered = text.size() > 1 && upper(text[0]) == 'N' && is_digit(text[1]);
+  if (numbered) text = without_checksum(text, fault);
   const char* p = text.data();
-  const char* end = p + text.size();
-  const char* const begin = p;
-  while (p < end && is_blank(*p)) ++p;
-  if (p < end && upper(*p) == 'N' && p + 1 < end && is_digit(p[1])) {
+  const char* const end = p + text.size();
+  if (numbered) {
     for (++p; p < end && is_digit(*p);) ++p;
-    while (p < end && is_blank(*p)) ++p;
   }
-  while (p < end && *p == '(') {
-    p = past_parenthesis(p, end);
-    while (p < end && is_blank(*p)) ++p;
-  }
-  if (p < end && *p == '%') return fault;  // begin or end of a tape
-  if (p < end && is_letter(*p)) {
-    p = command(p, end, line);
-  } else if (p < end && *p != ';') {
-    return "a command begins with a letter";
-  }
-  const char* const arguments = p;
-  const char* arguments_end = end;
-  const bool free_text = !line.word.empty();
-  while (p < end) {
-    const char c = *p;
-    if (is_blank(c)) {
-      ++p;
-    } else if (c == ';') {
-      arguments_end = p;
-      line.has_comment = true;
-      line.comment = {p + 1, std::size_t(end - p - 1)};
-      if (line.comment.ends_with('\r')) line.comment.remove_suffix(1);
-      break;
-    } else if (c == '*') {
-      arguments_end = p;
-      double told = -1;
-      const char* after = decimal(p + 1, end, told);
-      if (after != nullptr && *begin != ';' && told != checksum(begin, p) && !free_text)
-        fault = "the checksum is wrong";
-      p = after != nullptr ? after : p + 1;
-    } else if (c == '(') {
-      p = past_parenthesis(p, end);
-    } else if (c == '"') {
-      p = past_quotes(p, end);
-    } else if (is_letter(c) && !free_text) {
-      const auto bit = std::uint32_t{1} << (upper(c) - 'A');
-      line.present |= bit;
-      double value = 0;
-      const char* after = decimal(p + 1, end, value);
-      if (after == nullptr && p + 1 < end && (p[1] == ' ' || p[1] == '=')) {  // "X 10", "P=1" as some write it
-        const char* q = p + 1;
-        while (q < end && (*q == ' ' || *q == '=')) ++q;
-        if (q < end && (is_digit(*q) || *q == '-' || *q == '+' || *q == '.')) after = decimal(q, end, value);
-      }
-      if (after != nullptr) {
-        line.valued |= bit;
-        line.value[std::size_t(upper(c) - 'A')] = value;
-        p = after;
-        if (p < end && *p == '.' && line.letter == 'G' && !fault) fault = "a number has two decimal points";
-      } else {
-        ++p;
-      }
-    } else {
-      ++p;  // ':' of lists and whatever else; known to the command alone
-    }
-  }
-  line.arguments = {arguments, std::size_t(arguments_end - arguments)};
-  return fault;
+  while (p < end && (is_blank(*p) || *p == '(')) p = *p == '(' ? past_parenthesis(p, end) : p + 1;
+  if (p == end || *p == '%') return fault;  // "%": begin or end of a tape
+  std::optional<std::string_view> odd_number;
+  if (*p != ';') p = command(p, end, line);
+  parameters(p, end, line, odd_number);
+  // Text behind M117 and its like may look like a number that is none.
+  return !fault && line.letter != 'M' ? odd_number : fault;
 }
 
 std::optional<double> word_argument(std::string_view arguments, std::string_view key) {

@@ -6,7 +6,8 @@
 //
 // Understood: line numbers and checksums (the checksum is verified), lower case, no blanks between words ("G1X1Y2"),
 // comments behind ";" and in "( )", quoted strings (RepRapFirmware), commands in words (Klipper: "SET_VELOCITY_LIMIT
-// ACCEL=1000"). A number is what firmware reads: "1", "-.5", "1.", "+2"; never "nan", "inf" or an exponent.
+// ACCEL=1000"), lines that go on with the command before ("X10 Y20"). A number is what firmware reads: "1", "-.5",
+// "1.", "+2"; never "nan", "inf" or an exponent: "X1E5" is X1 and E5.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@
 namespace cleancolor {
 
 struct GcodeLine {
-  char letter = 0;             // 'G', 'M', 'T' ...; 0: no command, or one in words
+  char letter = 0;             // 'G', 'M', 'T' ...; 0: no command, one in words, or parameters alone
   int number = -1;             // 92 of "G92"
   int fraction = 0;            // 1 of "G92.1"
   std::string_view word;       // "SET_VELOCITY_LIMIT": a command in words, else empty
@@ -37,8 +38,8 @@ struct GcodeLine {
   }
 };
 
-/// Takes a line apart. A fault (a number that is none, a wrong checksum) is told in words: the caller knows file and
-/// line.
+/// Takes a line apart. A fault (a number that is none, but for M commands, which may speak of anything; a wrong
+/// checksum) is told in words: the caller knows file and line.
 ///
 /// Fills `line` anew; value[] is written only where a parameter is there.
 /// Cost: about 10 ns and 12 ns a parameter.  Returns: nothing, or what is wrong.

@@ -44,7 +44,7 @@ inline constexpr int max_tools = 16;
 struct GcodeMove {
   Vec3 to_mm;                    // where it ends
   double filament_mm = 0;        // > 0 pushed, < 0 drawn back, of the tool `feeds`; a length of filament
-  float speed_mm_s = 0;          // as asked for: of the carriage, of the filament where only that moves
+  float speed_mm_s = 0;          // as asked for: of the carriage, of the filament where only that moves; 0: not told
   float acceleration_mm_s2 = 0;  // as last told for moves of this kind; 0: never told
   float width_mm = 0;            // of the road; 0 where no plastic is laid
   float height_mm = 0;
@@ -121,6 +121,9 @@ struct GcodePrint {
   std::vector<UnknownCommand> unknown;  // by name
   std::vector<std::string> warnings;
 };
+
+/// Whether move i lays plastic along X or Y, from a place that is known.
+bool lays_plastic(const GcodePrint& print, std::size_t i);
 
 /// The number of the line that begins at or contains this byte, from 1.  Cost: counts from the start of the text.
 std::size_t line_number(std::string_view text, std::size_t offset);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <numbers>
 
 #include "base/error.hpp"
 #include "model/text_file.hpp"
@@ -37,8 +36,8 @@ void require_text(std::string_view text, const std::string& name) {
     throw Error(fmt::format("{}: more than 4 GB of G-code are not supported", name));
 }
 
-/// Lines that begin with G0 ... G3, so that moves need no second allocation.
-std::size_t count_moves(std::string_view text) {
+/// Commands that may move, so that the moves of all but arcs need no second allocation.
+std::size_t most_moves(std::string_view text) {
   std::size_t count = 0;
   const char* const end = text.data() + text.size();
   for (const char* p = text.data(); p < end;) {
@@ -50,33 +49,38 @@ std::size_t count_moves(std::string_view text) {
   return count;
 }
 
-void read_lines(GcodePrint& print, const Progress& progress) {
+/// Cross-section of each tool's filament.
+std::vector<double> read_lines(GcodePrint& print, const Progress& progress) {
   const std::string_view text = *print.text;
+  const char line_end = text.find('\n') == text.npos ? '\r' : '\n';
+  const std::size_t report_bytes = std::max<std::size_t>(text.size() / 50, 1 << 20);
   Interpreter interpreter(print);
   GcodeLine line;
   std::size_t next_report = 0;
   for (std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < text.size();) {
-    const std::size_t stop = std::min(text.find('\n', at), text.size());
+    const std::size_t stop = std::min(text.find(line_end, at), text.size());
     const std::string_view words = text.substr(at, stop - at);
-    if (words.size() > longest_line && words.front() != ';')
+    if (words.size() > longest_line && std::min(words.find(';'), words.size()) > longest_line)
       throw Error(fmt::format("{}:{}: a line of more than 1 MB; this is no G-code", print.name, line_number(text, at)));
     if (const auto fault = parse_line(words, line))
-      throw Error(fmt::format("{}:{}: {}; the file is damaged", print.name, line_number(text, at), *fault));
+      throw Error(fmt::format("{}:{}: {}; the file is damaged, export or download it again", print.name,
+                              line_number(text, at), *fault));
     interpreter.run(line, std::uint32_t(at));
     at = stop + 1;
-    if (at >= next_report) {
-      progress.advance("reading", double(std::min(at, text.size())) / double(text.size()));
-      next_report = at + text.size() / 50 + 1;
-    }
+    if (at < next_report) continue;
+    next_report = at + report_bytes;
+    if (progress.interrupted()) throw Error("interrupted");
+    progress.advance("reading", double(std::min(at, text.size())) / double(text.size()));
   }
   interpreter.finish();
+  const auto& areas = interpreter.filament().area_mm2();
+  return {areas.begin(), areas.end()};
 }
 
-bool lays(const GcodePrint& print, std::size_t i) {
-  const GcodeMove& move = print.moves[i];
-  if (move.filament_mm <= 0 || !move.known_start || i == 0) return false;
-  const Vec3 from = print.moves[i - 1].to_mm;
-  return from.x != move.to_mm.x || from.y != move.to_mm.y;
+bool any_plastic(const GcodePrint& print) {
+  for (std::size_t i = 0; i < print.moves.size(); ++i)
+    if (lays_plastic(print, i)) return true;
+  return false;
 }
 
 /// What is extruded before the file first says what it prints is the user's start code.
@@ -94,19 +98,11 @@ GcodePrint read_gcode(std::string text, const std::string& name, const Progress&
   print.name = name;
   print.text = std::make_shared<const std::string>(std::move(text));
   read_facts(*print.text, name, print.facts, print.warnings);
-  print.moves.reserve(count_moves(*print.text));
-  read_lines(print, progress);
-  bool any = false;
-  for (std::size_t i = 0; i < print.moves.size() && !any; ++i) any = lays(print, i);
-  if (!any) throw Error(fmt::format("{}: no move lays plastic; is this G-code of a printer?", name));
+  print.moves.reserve(most_moves(*print.text));
+  const std::vector<double> filament_area_mm2 = read_lines(print, progress);
+  if (!any_plastic(print)) throw Error(fmt::format("{}: no move lays plastic; is this G-code of a printer?", name));
   mark_start_code(print);
-  std::vector<double> areas(max_tools, std::numbers::pi / 4 * 1.75 * 1.75);
-  const std::vector<double>& d = print.facts.filament_diameter_mm;
-  for (std::size_t t = 0; t < areas.size() && !d.empty(); ++t) {
-    const double diameter = d[std::min(t, d.size() - 1)];
-    areas[t] = std::numbers::pi / 4 * diameter * diameter;
-  }
-  assign_layers(print, areas);
+  assign_layers(print, filament_area_mm2);
   return print;
 }
 
