@@ -1,1 +1,225 @@
 #include "audit/machine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "audit/offset_guess.hpp"
+#include "base/error.hpp"
+#include "model/ini.hpp"
+#include "model/motion_limits.hpp"
+
+namespace cleancolor {
+namespace {
+
+// Distinguishable also for the colour-blind (Okabe and Ito, 2008).
+constexpr std::array<std::uint32_t, 8> palette = {0x0072B2, 0xE69F00, 0x009E73, 0xCC79A7,
+                                                  0x56B4E9, 0xD55E00, 0xF0E442, 0x555555};
+
+std::string text_of(const std::vector<Vec2>& offsets_mm) {
+  std::string text;
+  for (const Vec2 p : offsets_mm) text += fmt::format("{}{:g}x{:g}", text.empty() ? "" : ",", p.x, p.y);
+  return text;
+}
+
+std::string_view name_of(OffsetsIn in) {
+  return in == OffsetsIn::slicer ? "slicer" : "firmware";
+}
+
+/// The printer as the file's own configuration describes it; nothing where it has none that can be read.
+std::optional<Config> config_in(const GcodePrint& print, const Progress& progress) {
+  const bool has_limits = std::ranges::any_of(print.facts.config, [](const IniEntry& e) {
+    return e.key.starts_with("machine_max_") || e.key == "nozzle_diameter";
+  });
+  if (!has_limits) return std::nullopt;
+  std::vector<IniEntry> entries;
+  for (const IniEntry& entry : print.facts.config)
+    if (entry.key.starts_with("machine_max_") || entry.key == "nozzle_diameter") entries.push_back(entry);
+  try {
+    return with_ini(Config{}, entries, print.name).config;
+  } catch (const Error& fault) {
+    progress.warn(fmt::format("{}; the limits of its printer are not used", fault.what()));
+    return std::nullopt;
+  }
+}
+
+/// Several nozzles print, and nothing tells where they are.
+[[noreturn]] void fail_without_offsets(const GcodePrint& print) {
+  throw Error(fmt::format(
+      "{}: {} nozzles print, and the file does not say where they are; choose the printer with --printer, or "
+      "say it: --nozzle-offset 0x0,33x0 --offsets-in {}",
+      print.name, print.tools, name_of(print.facts.offsets_in.value_or(OffsetsIn::firmware))));
+}
+
+class Finder {
+ public:
+  Finder(const GcodePrint& print, const MachineRequest& request, const Progress& progress)
+      : print_(print), request_(request), progress_(progress) {}
+
+  AuditMachine machine() {
+    find_offsets();
+    find_offsets_in();
+    return std::move(machine_);
+  }
+
+ private:
+  void take(const std::vector<Vec2>& offsets_mm, std::string source) {
+    offsets_ = offsets_mm;
+    machine_.offsets_source = std::move(source);
+  }
+
+  void find_offsets() {
+    const auto tools = std::size_t(print_.tools);
+    if (!request_.nozzle_offset_mm.empty()) {
+      take(request_.nozzle_offset_mm, "--nozzle-offset");
+    } else if (request_.printer) {
+      for (const Extruder& extruder : request_.printer->extruders) offsets_.push_back(extruder.nozzle_offset_mm);
+      machine_.offsets_source = fmt::format("printer {}", request_.printer->printer_model);
+    } else if (!print_.facts.nozzle_offset_mm.empty()) {
+      take(print_.facts.nozzle_offset_mm, print_.facts.offsets_from);
+    } else if (print_.facts.firmware_offset_mm.size() >= tools && tools > 1) {
+      take(print_.facts.firmware_offset_mm, "M218 in the file");
+      if (!print_.facts.offsets_in) told_in_ = OffsetsIn::firmware;
+    } else if (tools == 1) {
+      take({{0, 0}}, "one nozzle");
+    } else {
+      guess();
+    }
+    if (offsets_.size() < tools) {
+      throw Error(
+          fmt::format("{}: {} nozzles print, but offsets of {} are given ({}); give one for each: --nozzle-offset "
+                      "0x0,33x0,...",
+                      print_.name, tools, offsets_.size(), machine_.offsets_source));
+    }
+    for (const Vec2 offset : offsets_) machine_.nozzles.emplace_back().offset_mm = offset;
+    if (!request_.nozzle_offset_mm.empty() || request_.printer) compare_with_file();
+  }
+
+  void guess() {
+    const std::vector<Vec2> guessed = guessed_offsets_mm(print_);
+    if (guessed.empty()) fail_without_offsets(print_);
+    take(guessed, "a guess from the geometry");
+    told_in_ = OffsetsIn::slicer;
+    progress_.warn(
+        fmt::format("{}: the file does not say where the nozzles are; its colours fit together with --nozzle-offset "
+                    "{} --offsets-in slicer, which is taken; say it yourself if it is wrong",
+                    print_.name, text_of(guessed)));
+  }
+
+  void compare_with_file() {
+    const std::vector<Vec2>& told = print_.facts.nozzle_offset_mm;
+    for (std::size_t n = 0; n < std::min(told.size(), offsets_.size()); ++n) {
+      if (distance(told[n], offsets_[n]) <= 0.1) continue;
+      progress_.warn(fmt::format("{}: the file was made for nozzles at {}, audited are nozzles at {} ({})", print_.name,
+                                 text_of(told), text_of(offsets_), machine_.offsets_source));
+      return;
+    }
+  }
+
+  void find_offsets_in() {
+    const bool apart = std::ranges::any_of(offsets_, [](Vec2 p) { return p.x != 0 || p.y != 0; });
+    std::optional<OffsetsIn> fits;
+    if (print_.tools > 1 && apart) fits = guessed_offsets_in(print_, offsets_);
+    if (request_.offsets_in) {
+      machine_.offsets_in = *request_.offsets_in;
+      machine_.offsets_in_source = "--offsets-in";
+    } else if (print_.facts.offsets_in) {
+      machine_.offsets_in = *print_.facts.offsets_in;
+      machine_.offsets_in_source = print_.facts.offsets_from;
+    } else if (told_in_) {
+      machine_.offsets_in = *told_in_;
+      machine_.offsets_in_source = machine_.offsets_source;
+    } else if (fits) {
+      machine_.offsets_in = *fits;
+      machine_.offsets_in_source = "a guess from the geometry";
+      progress_.warn(
+          fmt::format("{}: the file does not say who makes up for the nozzle offsets; its colours fit together with "
+                      "--offsets-in {}, which is taken",
+                      print_.name, name_of(*fits)));
+      return;
+    } else {
+      machine_.offsets_in = request_.printer ? request_.printer->offsets_in : OffsetsIn::firmware;
+      machine_.offsets_in_source = request_.printer ? machine_.offsets_source : "the default";
+      if (print_.tools > 1 && apart)
+        progress_.warn(
+            fmt::format("{}: the file does not say who makes up for the nozzle offsets; --offsets-in {} is taken",
+                        print_.name, name_of(machine_.offsets_in)));
+      return;
+    }
+    if (fits && *fits != machine_.offsets_in) {
+      progress_.warn(
+          fmt::format("{}: with --offsets-in {} ({}) the colours do not fit together; with --offsets-in {} they would",
+                      print_.name, name_of(machine_.offsets_in), machine_.offsets_in_source, name_of(*fits)));
+    }
+  }
+
+  const GcodePrint& print_;
+  const MachineRequest& request_;
+  const Progress& progress_;
+  AuditMachine machine_;
+  std::vector<Vec2> offsets_;
+  std::optional<OffsetsIn> told_in_;
+};
+
+double told_for(const std::vector<double>& list, std::size_t n, double otherwise) {
+  return list.empty() ? otherwise : list[std::min(n, list.size() - 1)];
+}
+
+/// "#RRGGBB"; nothing where it is none.
+std::optional<std::uint32_t> rgb_of(const std::string& text) {
+  if (text.size() != 7 || text[0] != '#') return std::nullopt;
+  return std::uint32_t(std::stoul(text.substr(1), nullptr, 16));
+}
+
+bool close(std::uint32_t a, std::uint32_t b) {
+  int apart = 0;
+  for (const int shift : {0, 8, 16}) apart += std::abs(int(a >> shift & 255) - int(b >> shift & 255));
+  return apart < 60;
+}
+
+/// The file's own colours where they can be told apart, else a palette.
+void put_colours(const GcodePrint& print, const MachineRequest& request, AuditMachine& machine) {
+  const auto n = machine.nozzles.size();
+  std::vector<std::uint32_t> rgb;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::optional<std::uint32_t> told;
+    if (i < print.facts.filament_colour.size()) told = rgb_of(print.facts.filament_colour[i]);
+    if (!told && request.printer && i < request.printer->extruders.size()) {
+      const Extruder& e = request.printer->extruders[i];
+      told = rgb_of(e.filament_colour.empty() ? e.extruder_colour : e.filament_colour);
+    }
+    if (!told || std::ranges::any_of(rgb, [&](std::uint32_t other) { return close(other, *told); })) {
+      rgb.clear();
+      break;
+    }
+    rgb.push_back(*told);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    machine.nozzles[i].rgb = rgb.empty() ? palette[i % palette.size()] : rgb[i];
+    machine.nozzles[i].colour_name = fmt::format("extruder {} (#{:06X})", i + 1, machine.nozzles[i].rgb);
+  }
+}
+
+}  // namespace
+
+AuditMachine audit_machine(const GcodePrint& print, const MachineRequest& request, const Progress& progress) {
+  AuditMachine machine = Finder(print, request, progress).machine();
+  const std::optional<Config> own = config_in(print, progress);
+  machine.limits = motion_limits(request.printer ? *request.printer : own.value_or(Config{}));
+  machine.idle_nozzle =
+      request.idle_nozzle.value_or(request.printer ? request.printer->idle_nozzle : IdleNozzle::same_height);
+  for (std::size_t n = 0; n < machine.nozzles.size(); ++n) {
+    Extruder extruder;
+    if (request.printer) extruder = request.printer->extruders[std::min(n, request.printer->extruders.size() - 1)];
+    machine.nozzles[n].filament_diameter_mm =
+        told_for(print.facts.filament_diameter_mm, n, extruder.filament_diameter_mm);
+    machine.nozzles[n].filament_density_g_cm3 =
+        told_for(print.facts.filament_density_g_cm3, n, extruder.filament_density_g_cm3);
+  }
+  put_colours(print, request, machine);
+  return machine;
+}
+
+}  // namespace cleancolor
