@@ -11,7 +11,8 @@ namespace {
 constexpr double cell_mm = 0.5;
 constexpr std::size_t most_layers = 24;  // samples of layers with several tools
 constexpr std::size_t most_cells = 4'000'000;
-constexpr double clearly = 0.15;  // so much better a fit must be
+constexpr double clearly_in = 0.04;      // so much better one form must fit than the other,
+constexpr double clearly_offset = 0.15;  // and a shift out of many than none
 
 /// Cells of one layer that each tool's part covers, without any shift.
 struct Raster {
@@ -144,9 +145,9 @@ OffsetFit fit_of(const std::vector<Raster>& rasters, const std::vector<Vec2>& sh
   return {double(beside) / double(smaller), double(over) / double(smaller)};
 }
 
-/// Touching counts for, lying over against; cells at a common border may do either.
+/// Touching counts for, lying over against; but roads along a common border share some cells.
 double score(const OffsetFit& fit) {
-  return fit.touching - fit.overlapping;
+  return fit.touching - fit.overlapping / 2;
 }
 
 }  // namespace
@@ -159,21 +160,25 @@ std::optional<OffsetsIn> guessed_offsets_in(const GcodePrint& print, const std::
   const std::vector<Raster> rasters = rasters_of(print);
   if (rasters.empty()) return std::nullopt;
   const double slicer = score(fit_of(rasters, nozzle_offset_mm)), firmware = score(fit_of(rasters, {}));
-  if (slicer > firmware + clearly / 3) return OffsetsIn::slicer;
-  if (firmware > slicer + clearly / 3) return OffsetsIn::firmware;
+  if (slicer > firmware + clearly_in) return OffsetsIn::slicer;
+  if (firmware > slicer + clearly_in) return OffsetsIn::firmware;
   return std::nullopt;
 }
 
 std::vector<Vec2> guessed_offsets_mm(const GcodePrint& print) {
   const std::vector<Raster> rasters = rasters_of(print);
   if (rasters.empty() || print.tools != 2) return {};
-  const double as_it_is = score(fit_of(rasters, {}));
+  const auto strict_score = [&](const std::vector<Vec2>& shift_mm) {
+    const OffsetFit fit = fit_of(rasters, shift_mm);
+    return fit.touching - fit.overlapping;
+  };
+  const double as_it_is = strict_score({});
   // Printers have their nozzles side by side along one axis, some almost so: the search is along X, then along Y.
-  double best = as_it_is + clearly;
+  double best = as_it_is + clearly_offset;
   std::vector<Vec2> found;
   for (const Vec2 axis : {Vec2{1, 0}, Vec2{0, 1}}) {
     for (double mm = -80; mm <= 80; mm += cell_mm) {
-      const double s = score(fit_of(rasters, {{}, axis * mm}));
+      const double s = strict_score({{}, axis * mm});
       if (s > best) best = s, found = {{}, axis * mm};
     }
   }
