@@ -71,8 +71,7 @@ void Interpreter::command_g(const GcodeLine& line) {
       motion_ = number;
       return go(line);
     case 4:
-      return event({.kind = GcodeEvent::Kind::dwell,
-                    .value = std::clamp(line.has_value('S') ? line['S'] : line.value_or('P', 0) / 1000, 0.0, 1e6)});
+      return dwell(line);
     case 10:
       // With P: a tool of RepRapFirmware, with L: a workspace.
       if (!line.has('P') && !line.has('L')) return firmware_retraction(true);
@@ -274,6 +273,11 @@ void Interpreter::forget_position(const GcodeLine& line) {
   const bool all = (line.present & bits("XYZ")) == 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (all || line.has(axis_letters[axis])) axes_[axis] = {};
+}
+
+void Interpreter::dwell(const GcodeLine& line) {
+  const double value = line.has_value('S') ? line['S'] : line.value_or('P', 0) / 1000;
+  if (value > 0) event({.kind = GcodeEvent::Kind::dwell, .value = std::min(value, 1e6)});
 }
 
 void Interpreter::unknown(const GcodeLine& line) {

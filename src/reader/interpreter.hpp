@@ -54,6 +54,7 @@ class Interpreter {
   void set_position(const GcodeLine& line);
   void forget_position(const GcodeLine& line);
   void firmware_retraction(bool back);
+  void dwell(const GcodeLine& line);
   void require_numbers(const GcodeLine& line) const;
   void set_speed(const GcodeLine& line);
   double target_mm(const GcodeLine& line, int axis) const;
