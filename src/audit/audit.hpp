@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "audit/exposed.hpp"
 #include "audit/figures.hpp"
 #include "audit/machine.hpp"
 #include "audit/ooze.hpp"
@@ -39,6 +40,7 @@ std::vector<Scenario> scenarios(bool sensitivity = false);
 struct AuditOptions {
   std::vector<Scenario> scenarios = cleancolor::scenarios();
   double step_mm = 0.5;  // visibility along a way is looked up this often
+  ExposedBy exposed = ExposedBy::both;
   VisibilityOptions visibility;
   int threads = 0;  // 0: as many as the machine has; the figures do not depend on it
 };

@@ -48,6 +48,9 @@ class MotionTimer {
   /// Requires: speed_mm_s > 0.  Cost: about 50 ns, amortised.
   void push(const Move& move);
 
+  /// Other limits for the moves pushed from now on.
+  void set_limits(const MotionLimits& limits) { limits_ = limits; }
+
   /// The carriage comes to rest here; all moves pushed so far get their durations.
   void stop();
 
