@@ -120,16 +120,16 @@ void Interpreter::go(const GcodeLine& line) {
 }
 
 void Interpreter::require_numbers(const GcodeLine& line) const {
-  const std::uint32_t missing = line.present & ~line.valued & bits("XYZEFABIJR");
+  constexpr std::string_view letters = "XYZEFIJRAB";
+  const std::uint32_t missing = line.present & ~line.valued & bits(letters);
   if (missing == 0) return;
-  char letter = 'A';
-  while ((missing >> (letter - 'A') & 1) == 0) ++letter;
+  const char letter = *std::ranges::find_if(letters, [&](char c) { return (missing & bits({&c, 1})) != 0; });
   fail(fmt::format("{} has no number; the file is {}: export or download it again", letter,
                    on_last_line() ? "cut off" : "damaged"));
 }
 
 bool Interpreter::on_last_line() const {
-  return print_.text->find('\n', offset_) == std::string::npos;
+  return print_.text->find_first_of("\r\n", offset_) == std::string::npos;
 }
 
 void Interpreter::set_speed(const GcodeLine& line) {
@@ -176,8 +176,8 @@ void Interpreter::straight(const GcodeLine& line) {
   const double filament = filament_mm(line, feeds);
   if (filament == 0 && (line.present & bits("XYZ")) == 0) return;
   const Vec3 to = {target_mm(line, 0), target_mm(line, 1), target_mm(line, 2)};
-  move_to(to, filament, feeds);
   arrive(line);
+  move_to(to, filament, feeds);
 }
 
 void Interpreter::arc(const GcodeLine& line) {
@@ -201,14 +201,14 @@ void Interpreter::arc(const GcodeLine& line) {
 
   int feeds = tool_;
   const double filament = filament_mm(line, feeds);
-  const double z = axes_[2].at_mm, rise = target_mm(line, 2) - z;
+  const double z = axes_[2].at_mm, end_z = target_mm(line, 2);
+  arrive(line);
   double share = 0;
   for (const ArcPoint& p : points) {
-    const double height = p.share < 1 ? z + rise * p.share : target_mm(line, 2);
+    const double height = p.share < 1 ? z + (end_z - z) * p.share : end_z;
     move_to({p.at_mm.x, p.at_mm.y, height}, filament * (p.share - share), feeds, true);
     share = p.share;
   }
-  arrive(line);
 }
 
 void Interpreter::move_to(Vec3 to, double filament, int feeds, bool is_arc) {
@@ -216,7 +216,6 @@ void Interpreter::move_to(Vec3 to, double filament, int feeds, bool is_arc) {
     fail("this is more than 10 m away; the file is damaged");
   if (std::abs(filament) > largest_mm) fail("this is more than 10 m of filament; the file is damaged");
   const bool across = to.x != axes_[0].at_mm || to.y != axes_[1].at_mm;
-  const bool known_start = axes_[0].known && axes_[1].known;
   const bool lays = filament > 0 && across;
   const double acceleration = lays                               ? acceleration_.print
                               : across || to.z != axes_[2].at_mm ? acceleration_.travel
@@ -232,9 +231,10 @@ void Interpreter::move_to(Vec3 to, double filament, int feeds, bool is_arc) {
                           .tool = std::uint8_t(tool_),
                           .feeds = std::uint8_t(feeds),
                           .role = said.role,
-                          .known_start = known_start,
+                          .known_start = end_known_,
                           .arc = is_arc});
   axes_[0].at_mm = to.x, axes_[1].at_mm = to.y, axes_[2].at_mm = to.z;
+  end_known_ = axes_[0].known && axes_[1].known;
   print_.tools = std::max({print_.tools, tool_ + 1, feeds + 1});
 }
 
@@ -273,6 +273,7 @@ void Interpreter::forget_position(const GcodeLine& line) {
   const bool all = (line.present & bits("XYZ")) == 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (all || line.has(axis_letters[axis])) axes_[axis] = {};
+  end_known_ = end_known_ && axes_[0].known && axes_[1].known;
 }
 
 void Interpreter::dwell(const GcodeLine& line) {

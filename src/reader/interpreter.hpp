@@ -89,6 +89,7 @@ class Interpreter {
   std::uint32_t offset_ = 0;
 
   std::array<Axis, 3> axes_;
+  bool end_known_ = false;  // the nozzle is in X and Y where the last move ended, and that is known
   double unit_mm_ = 1;
   bool relative_ = false;
   bool absolute_centers_ = false;
