@@ -1,0 +1,78 @@
+; HEADER_BLOCK_START
+; BambuStudio 01.09.05.51
+; model printing time: 3m 2s; total estimated time: 9m 41s
+; total layer number: 1
+; HEADER_BLOCK_END
+
+; CONFIG_BLOCK_START
+; extruder_offset = 0x0,0x0
+; filament_colour = #FFFFFF;#C12E1F
+; filament_density = 1.24,1.24
+; filament_diameter = 1.75,1.75
+; gcode_flavor = marlin
+; layer_height = 0.2
+; nozzle_diameter = 0.4,0.4
+; CONFIG_BLOCK_END
+
+; EXECUTABLE_BLOCK_START
+M73 P0 R9
+M201 X20000 Y20000 Z500 E5000
+M203 X500 Y500 Z20 E30
+M204 P20000 R5000 T20000
+M205 X9.00 Y9.00 Z3.00 E3.00
+; FEATURE: Custom
+G90
+G28
+M620 S0A
+M204 S9000
+T0
+M621 S0A
+M620.1 E F299.339 T240
+T1000
+M83
+M400
+; CHANGE_LAYER
+; Z_HEIGHT: 0.2
+; LAYER_HEIGHT: 0.2
+G1 E-.8 F1800
+; object ids of layer 1 start: 15
+; start printing object, unique label id: 15
+M624 AQAAAAAAAAA=
+G1 X0 Y0 F30000
+G1 Z.2
+G1 E.8 F1800
+; FEATURE: Inner wall
+; LINE_WIDTH: 0.5
+G1 F3000
+G1 X8.5 Y0 E.28
+; FEATURE: Outer wall
+; LINE_WIDTH: 0.42
+G1 X9 Y0 F30000
+G1 X9 Y9 E.27 F3000
+; WIPE_START
+G1 X9 Y7 E-.76
+; WIPE_END
+; stop printing object, unique label id: 15
+M625
+; FEATURE: Prime tower
+; LINE_WIDTH: 0.5
+G1 X40 Y0 F30000
+G1 E.8 F1800
+; CP TOOLCHANGE START
+; toolchange #1
+M620 S1A
+T1
+M621 S1A
+; FLUSH_START
+G1 X44 Y0 E4 F1000
+; FLUSH_END
+; CP TOOLCHANGE WIPE
+G1 X44 Y4 E.2 F3000
+; CP TOOLCHANGE END
+; FEATURE: Top surface
+; LINE_WIDTH: 0.42
+G1 X20 Y0 F30000
+G1 X20 Y9 E.27 F3000
+G2 X24 Y13 I4 J0 E.2
+T255
+; EXECUTABLE_BLOCK_END
