@@ -88,8 +88,16 @@ void Interpreter::command_g(const GcodeLine& line) {
     case 21:
       unit_mm_ = number == 20 ? 25.4 : 1;
       return;
+    case 12:  // wiping
+    case 27:  // parking
     case 28:
     case 29:
+    case 30:  // probing and levelling
+    case 32:
+    case 33:
+    case 34:
+    case 35:
+    case 80:
     case 161:
     case 162:
       return forget_position(line);
@@ -197,7 +205,7 @@ void Interpreter::arc(const GcodeLine& line) {
     fail("the centre of the arc is more than 10 m away; the file is damaged");
   const std::vector<ArcPoint> points = chords(way);
   if (points.empty()) return straight(line);
-  if (print_.moves.size() > 1'000'000 + print_.text->size() / 4) fail("too many large arcs; the file is damaged");
+  if (print_.moves.size() > 1'000'000 + 2 * print_.text->size()) fail("too many large arcs; the file is damaged");
 
   int feeds = tool_;
   const double filament = filament_mm(line, feeds);

@@ -7,7 +7,7 @@ namespace cleancolor {
 namespace {
 
 // Marlin, RepRapFirmware, Klipper, Sailfish, Prusa, Bambu and what slicers write in their start and end codes.
-constexpr std::array harmless_m = {
+constexpr int harmless_m[] = {
     0,   1,   2,   3,   4,   5,   7,   8,   9,   10,   11,   17,   18,   20,   21,   22,  23,  24,  25,  26,  27,  28,
     29,  30,  31,  36,  42,  70,  71,  72,  73,  74,   75,   76,   77,   78,   80,   81,  84,  85,  86,  92,  98,  99,
     101, 102, 103, 105, 106, 107, 110, 111, 112, 113,  114,  115,  117,  118,  119,  120, 121, 122, 123, 126, 127, 128,
@@ -25,9 +25,8 @@ constexpr std::array harmless_m = {
     981, 982, 983, 984, 991, 995, 997, 998, 999, 1002, 1003, 1004, 1005, 1006, 1007, 1009};
 static_assert(std::ranges::is_sorted(harmless_m));
 
-// Wiping, levelling and probing (the next move tells where to go), the first workspace.
-constexpr std::array harmless_g = {12, 15, 22, 23, 26, 30, 31, 32, 33,  34,  35,
-                                   36, 40, 49, 54, 64, 80, 94, 95, 130, 280, 425};
+// Probes' own settings, lengths of tools, the first workspace, potentiometers of motors, priming on the spot.
+constexpr int harmless_g[] = {15, 22, 23, 26, 31, 36, 40, 49, 54, 64, 94, 95, 130, 280, 425};
 static_assert(std::ranges::is_sorted(harmless_g));
 
 // Klipper's own and common macros of its users.
