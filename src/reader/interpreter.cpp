@@ -229,6 +229,7 @@ void Interpreter::move_to(Vec3 to, double filament, int feeds, bool is_arc) {
                               : across || to.z != axes_[2].at_mm ? acceleration_.travel
                                                                  : acceleration_.retract;
   const CommentState& said = comments_.state();
+  const bool stale = lays && !said.object && !is_auxiliary(said.role);  // what belongs to no object is no part of it
   print_.moves.push_back({.to_mm = to,
                           .filament_mm = filament,
                           .speed_mm_s = float(speed_mm_s_ * speed_factor_),
@@ -238,7 +239,7 @@ void Interpreter::move_to(Vec3 to, double filament, int feeds, bool is_arc) {
                           .offset = offset_,
                           .tool = std::uint8_t(tool_),
                           .feeds = std::uint8_t(feeds),
-                          .role = said.role,
+                          .role = stale ? Role::custom : said.role,
                           .known_start = end_known_,
                           .arc = is_arc});
   axes_[0].at_mm = to.x, axes_[1].at_mm = to.y, axes_[2].at_mm = to.z;

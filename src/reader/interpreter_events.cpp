@@ -30,6 +30,7 @@ std::optional<double> klipper_extruder(std::string_view arguments) {
 }  // namespace
 
 void Interpreter::command_m(const GcodeLine& line) {
+  if (line.fraction > 0 && !is_harmless(line)) return unknown(line);  // Bambu's M204.2 is not M204
   switch (line.number) {
     case 6:
     case 108:
@@ -80,6 +81,7 @@ void Interpreter::command_m(const GcodeLine& line) {
 }
 
 void Interpreter::command_in_words(const GcodeLine& line) {
+  if (line.word.find('_') != line.word.npos) filament_.g90_is_not_about_e();  // only Klipper's are written so
   if (is_keyword(line.word, "set_velocity_limit")) {
     velocity_limit(line);
   } else if (is_keyword(line.word, "activate_extruder")) {
@@ -96,7 +98,6 @@ void Interpreter::command_in_words(const GcodeLine& line) {
 }
 
 void Interpreter::velocity_limit(const GcodeLine& line) {
-  filament_.g90_is_not_about_e();
   if (const auto told = word_argument(line.arguments, "ACCEL"); told && *told > 0) {
     const double value = std::min(*told, most_per_s);
     acceleration_ = {.print = value, .travel = value, .retract = acceleration_.retract};

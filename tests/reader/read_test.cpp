@@ -99,7 +99,8 @@ TEST(Reader, EIsAbsoluteOrRelative) {
 // Cura's end code on Marlin: G91 makes E relative as well, G90 absolute again.
 TEST(Reader, G91IsAboutEWhereTheFirmwareSaysSo) {
   EXPECT_NEAR(net_mm(read("M82\n" + printed + "G91\nG1 E-2 Z5\nG90\nG1 E1\n")), 1, 1e-9);
-  EXPECT_NEAR(net_mm(read(printed + "G91\nM82\nG1 E3\n")), 3, 1e-9);  // M82 came later
+  EXPECT_NEAR(net_mm(read(printed + "G91\nM82\nG1 E3\n")), 3, 1e-9);                               // M82 came later
+  EXPECT_NEAR(net_mm(read("EXCLUDE_OBJECT_START NAME=a\n" + printed + "G91\nG1 E5\n")), 5, 1e-9);  // Klipper
   for (const char* flavour : {"klipper", "reprapfirmware", "sailfish"})
     EXPECT_NEAR(net_mm(read(printed + "G91\nG1 E5\nG90\n; layer_height = 0.2\n; gcode_flavor = " + flavour + "\n")), 5,
                 1e-9)
@@ -280,6 +281,16 @@ TEST(Reader, CodeBeforeTheFirstLabelIsTheUsers) {
   EXPECT_GT(print.moves[1].width_mm, 0);
   EXPECT_EQ(print.moves[3].role, Role::external_perimeter);
   EXPECT_EQ(read(printed).moves[1].role, Role::unknown);  // nothing is labelled
+}
+
+// Cura labels objects and roads apart from each other.
+TEST(Reader, WhatBelongsToNoObjectIsNoPartOfIt) {
+  const GcodePrint print =
+      read(";MESH:a.stl\n;TYPE:WALL-OUTER\n" + printed + ";MESH:NONMESH\nG1 X9\nG1 X3 E3\n;TYPE:SKIRT\nG1 X4 E4\n");
+  EXPECT_EQ(print.moves[2].role, Role::external_perimeter);
+  EXPECT_EQ(print.moves[3].role, Role::external_perimeter);  // travel
+  EXPECT_EQ(print.moves[4].role, Role::custom);
+  EXPECT_EQ(print.moves[5].role, Role::skirt_brim);
 }
 
 TEST(Reader, LineEndsOfAllSystems) {
