@@ -1,6 +1,7 @@
 #include "audit/audit.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <span>
@@ -151,6 +152,8 @@ AuditResult Auditor::result() {
 
 AuditResult audit(const GcodePrint& print, const AuditMachine& machine, const AuditOptions& options,
                   const Progress& progress) {
+  assert(machine.nozzles.size() >= std::size_t(print.tools));
+  assert(!options.scenarios.empty() && options.step_mm > 0);
   return Auditor(print, machine, options, progress).result();
 }
 
