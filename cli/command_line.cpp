@@ -3,225 +3,27 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <cmath>
+#include <algorithm>
 
 #include "base/error.hpp"
-#include "model/options.hpp"
+#include "cli/audit_arguments.hpp"
+#include "cli/slice_arguments.hpp"
+#include "cli/words.hpp"
 
 namespace cleancolor {
 namespace {
 
 constexpr const char* description =
-    "Slices coloured meshes for printers with several nozzles.\n"
+    "Slices coloured meshes for printers with several nozzles, and judges how clean G-code prints.\n"
     "\n"
     "  cleancolor slice ocean.stl land.stl -o globe.gcode --printer replicator-dual\n"
     "  cleancolor slice robot.3mf --printer my-printer.toml --set layer_height=0.2\n"
     "  cleancolor slice a.stl b.stl -o ab.gcode --load my-prusaslicer.ini\n"
+    "  cleancolor audit print.gcode --printer replicator-dual\n"
     "  cleancolor profiles\n"
     "  cleancolor options infill\n";
 
-constexpr const char* exit_codes =
-    "Exit codes:\n"
-    "  0    done\n"
-    "  1    kept for the verdicts of an audit\n"
-    "  2    wrong input or options\n"
-    "  3    a file cannot be read or written\n"
-    "  130  interrupted; no file is left\n";
-
-constexpr const char* slice_description =
-    "Slices meshes (STL, OBJ, PLY, AMF, 3MF) and writes one G-code file.\n"
-    "\n"
-    "Each mesh file is printed by one extruder, in the order given, from extruder 1 on. A 3MF or AMF file may say\n"
-    "itself which extruder prints which part; else each colour takes the next extruder in order of first use.\n"
-    "\n"
-    "Options hold in this order, the later over the earlier: defaults, --printer, --material, --print, --load, "
-    "--set.\n";
-
-constexpr const char* slice_footer =
-    "Examples:\n"
-    "  cleancolor slice ocean.stl land.stl -o globe.gcode --printer replicator-dual\n"
-    "  cleancolor slice --extruder 2 lid.stl --extruder 1 box.stl --printer generic-dual-klipper\n"
-    "  cleancolor slice robot.3mf --printer klipper-idex --material petg --material pva\n"
-    "  cleancolor slice robot.3mf --printer my.toml --map-colour '#FF0000=2' --set temperature=230,205\n"
-    "  cleancolor slice part.stl --load prusa.ini --print fine --rotate 30 --preview part.png\n"
-    "\n"
-    "--json prints one object instead of the table:\n"
-    "  {\"output\": file, \"layers\": n, \"tool_changes\": n, \"time_s\": seconds without heating,\n"
-    "   \"extruders\": [{\"extruder\": from 1, \"filament_mm\": n, \"filament_g\": n, \"cost\": n}],\n"
-    "   \"warnings\": [text]}\n"
-    "\n";
-
 constexpr int max_threads = 1024;
-
-template <class T>
-bool parse_whole(std::string_view text, T& value) {
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return fault == std::errc() && end == text.data() + text.size();
-}
-
-// Extruders are numbered from 1 where people see them, from 0 inside.
-int extruder_index(std::string_view text, std::string_view option) {
-  int number = 0;
-  if (!parse_whole(text, number) || number < 1 || number > int(max_extruders)) {
-    throw Error(
-        fmt::format("{}: '{}' is not an extruder; they are numbered from 1 to {}", option, text, max_extruders));
-  }
-  return number - 1;
-}
-
-std::pair<std::uint32_t, int> colour_mapping(std::string_view text) {
-  const std::size_t equals = text.find('=');
-  std::uint32_t rgb = 0;
-  const std::string_view colour = text.substr(0, equals);
-  const bool is_colour = colour.size() == 7 && colour[0] == '#' && colour.find_first_of("+-") == colour.npos;
-  const char* end = text.data() + colour.size();
-  if (equals == text.npos || !is_colour || std::from_chars(colour.data() + 1, end, rgb, 16).ptr != end) {
-    throw Error(
-        fmt::format("--map-colour: '{}' is not like '#FF8000=2', a colour and the extruder that prints it", text));
-  }
-  return {rgb, extruder_index(text.substr(equals + 1), "--map-colour")};
-}
-
-Vec2 center_of(std::string_view text) {
-  const std::size_t comma = text.find(',');
-  Vec2 center;
-  if (comma == text.npos || !parse_whole(text.substr(0, comma), center.x) ||
-      !parse_whole(text.substr(comma + 1), center.y) || !std::isfinite(center.x) || !std::isfinite(center.y)) {
-    throw Error(fmt::format("--center: '{}' is not a point such as 100,75", text));
-  }
-  return center;
-}
-
-// The texts of `cleancolor slice` as CLI11 collects them.
-struct SliceTexts {
-  SliceCommand command;
-  std::vector<std::string> files;
-  std::vector<std::string> extruders;
-  std::vector<std::string> colours;
-  std::string center;
-  std::string overlap = "refuse";
-  bool keep = false;
-  CLI::Option* file_option = nullptr;
-  CLI::Option* extruder_option = nullptr;
-};
-
-// allow_extra_args(false): an option that may come again takes one word at a time, or it would swallow the files.
-void add_printing(CLI::App& app, Settings& settings) {
-  const char* group = "What to print with";
-  app.add_option("--printer", settings.printer, "printer: a name from 'cleancolor profiles', or a .toml file")
-      ->type_name("NAME|FILE.toml")
-      ->group(group);
-  app.add_option("--material", settings.materials, "material, once for each extruder; the last one holds for the rest")
-      ->type_name("NAME|FILE.toml")
-      ->group(group)
-      ->allow_extra_args(false);
-  app.add_option("--print", settings.print, "print settings")->type_name("NAME|FILE.toml")->group(group);
-  app.add_option("--load", settings.load, "configuration of PrusaSlicer or Slic3r: an .ini, or G-code that ends in one")
-      ->type_name("FILE")
-      ->group(group);
-  app.add_option("--set", settings.set, "one option, such as layer_height=0.2; repeatable; see 'cleancolor options'")
-      ->type_name("NAME=VALUE")
-      ->group(group)
-      ->allow_extra_args(false);
-}
-
-void add_parts(CLI::App& app, SliceTexts& texts) {
-  const char* group = "Parts and where they stand";
-  texts.file_option = app.add_option("files", texts.files, "mesh files")->type_name("FILE");
-  texts.extruder_option =
-      app.add_option("--extruder", texts.extruders, "extruder that prints the files that follow, from 1")
-          ->type_name("N")
-          ->group(group)
-          ->allow_extra_args(false);
-  app.add_option("--map-colour,--map-color", texts.colours, "extruder of a colour in the file; repeatable")
-      ->type_name("'#RRGGBB=N'")
-      ->group(group)
-      ->allow_extra_args(false);
-  app.add_option("--center", texts.center,
-                 "middle of all parts on the bed, mm; default: of the area "
-                 "that all needed nozzles reach")
-      ->type_name("X,Y")
-      ->group(group);
-  app.add_flag("--no-center", texts.keep, "keep X and Y of the files")->group(group);
-  app.add_option("--rotate", texts.command.placement.rotate_deg, "turn all parts about Z, degrees counterclockwise")
-      ->type_name("DEG")
-      ->group(group);
-  app.add_option("--scale", texts.command.placement.scale, "scale all parts")->type_name("FACTOR")->group(group);
-  app.add_option("--overlap", texts.overlap, "where two parts overlap: refuse, or give the place to the first or last")
-      ->type_name("refuse|first|last")
-      ->group(group);
-}
-
-void add_output(CLI::App& app, SliceCommand& command) {
-  const char* group = "Output";
-  app.add_option("-o,--output", command.output, "G-code file; default: the first mesh file's name with .gcode")
-      ->type_name("FILE")
-      ->group(group);
-  app.add_option("--preview", command.preview, "also draw a picture of the coloured parts")
-      ->type_name("FILE.png")
-      ->group(group);
-  app.add_flag("--json", command.json, "print the summary as JSON")->group(group);
-  app.add_flag("--quiet", command.quiet, "print neither progress nor summary; warnings still")->group(group);
-  app.add_option("--threads", command.threads, "number of threads; 0: as many as the machine has")
-      ->type_name("N")
-      ->group(group);
-}
-
-Error without_file(std::string_view extruder) {
-  return Error(fmt::format("--extruder {}: no file comes after it; it holds for the files that follow", extruder));
-}
-
-// --extruder holds for the files after it, so the order of the arguments counts.
-std::vector<ModelFile> files_in_order(const CLI::App& app, const SliceTexts& texts) {
-  std::vector<ModelFile> files;
-  std::optional<int> extruder;
-  std::size_t next_extruder = 0;
-  bool has_file = true;  // false: the last --extruder still waits for one
-  for (const CLI::Option* option : app.parse_order()) {
-    if (option == texts.extruder_option) {
-      if (!has_file) throw without_file(texts.extruders[next_extruder - 1]);
-      extruder = extruder_index(texts.extruders.at(next_extruder++), "--extruder");
-      has_file = false;
-    } else if (option == texts.file_option) {
-      files.push_back({texts.files.at(files.size()), extruder});
-      has_file = true;
-    }
-  }
-  if (!has_file) throw without_file(texts.extruders.back());
-  return files;
-}
-
-Overlap overlap_of(const std::string& text) {
-  if (text == "refuse") return Overlap::refuse;
-  if (text == "first") return Overlap::first;
-  if (text == "last") return Overlap::last;
-  throw Error(fmt::format("--overlap: '{}' is none of refuse, first, last", text));
-}
-
-SliceCommand slice_command(const CLI::App& app, SliceTexts texts) {
-  SliceCommand command = std::move(texts.command);
-  command.files = files_in_order(app, texts);
-  if (command.files.empty()) throw Error("slice: name at least one mesh file; see cleancolor slice --help");
-  for (const std::string& text : texts.colours) {
-    const auto [rgb, extruder] = colour_mapping(text);
-    command.extruder_of_rgb[rgb] = extruder;
-  }
-  if (!texts.center.empty()) command.placement.center_mm = center_of(texts.center);
-  command.placement.keep = texts.keep;
-  if (texts.keep && command.placement.center_mm) throw Error("--center and --no-center exclude each other");
-  const double scale = command.placement.scale;
-  if (!(scale > 0) || !std::isfinite(scale)) throw Error(fmt::format("--scale: {} is not a positive factor", scale));
-  if (!std::isfinite(command.placement.rotate_deg)) throw Error("--rotate: not a finite angle");
-  if (command.threads < 0 || command.threads > max_threads) {
-    throw Error(fmt::format("--threads: {} is not between 0 and {}", command.threads, max_threads));
-  }
-  command.overlap = overlap_of(texts.overlap);
-  if (command.output.empty()) {
-    command.output = std::filesystem::path(command.files.front().path).replace_extension(".gcode");
-  }
-  return command;
-}
 
 // CLI11 would only say that a command is missing.
 void require_command(const CLI::App& app, const std::vector<std::string>& arguments) {
@@ -237,18 +39,21 @@ void require_command(const CLI::App& app, const std::vector<std::string>& argume
 
 }  // namespace
 
+void require_threads(int threads) {
+  if (threads < 0 || threads > max_threads)
+    throw Error(fmt::format("--threads: {} is not between 0 and {}", threads, max_threads));
+}
+
 Command parse_command_line(std::vector<std::string> arguments) {
   CLI::App app(description, "cleancolor");
   app.set_version_flag("--version", "cleancolor " CLEANCOLOR_VERSION);
   app.footer(exit_codes);
   app.require_subcommand(1);
 
-  SliceTexts texts;
-  CLI::App* slice = app.add_subcommand("slice", "slice meshes and write G-code");
-  slice->footer(std::string(slice_footer) + exit_codes);
-  add_parts(*slice, texts);
-  add_printing(*slice, texts.command.settings);
-  add_output(*slice, texts.command);
+  SliceTexts slice_texts;
+  CLI::App* slice = add_slice(app, slice_texts);
+  AuditTexts audit_texts;
+  CLI::App* audit = add_audit(app, audit_texts);
 
   ProfilesCommand profiles;
   CLI::App* list = app.add_subcommand("profiles", "list printers, materials and print settings");
@@ -268,13 +73,18 @@ Command parse_command_line(std::vector<std::string> arguments) {
     return TextCommand{std::string(call.what()) + "\n"};
   } catch (const CLI::CallForHelp&) {
     const CLI::App* asked = &app;
-    for (const CLI::App* sub : {slice, list, show, options}) asked = sub->parsed() ? sub : asked;
+    for (const CLI::App* sub : {slice, audit, list, show, options}) asked = sub->parsed() ? sub : asked;
     if (asked == slice) slice->description(slice_description);
+    if (asked == audit) audit->description(audit_description);
     return TextCommand{asked->help(asked == &app ? "" : asked == show ? "cleancolor profiles" : "cleancolor")};
   } catch (const CLI::ParseError& fault) {
-    throw Error(fmt::format("{}; see cleancolor {}--help", fault.what(), slice->parsed() ? "slice " : ""));
+    throw Error(fmt::format("{}; see cleancolor {}--help", fault.what(),
+                            slice->parsed()   ? "slice "
+                            : audit->parsed() ? "audit "
+                                              : ""));
   }
-  if (slice->parsed()) return slice_command(*slice, std::move(texts));
+  if (slice->parsed()) return slice_command(*slice, std::move(slice_texts));
+  if (audit->parsed()) return audit_command(std::move(audit_texts));
   if (list->parsed()) return profiles;
   return reference;
 }

@@ -3,11 +3,15 @@
 // The command line -> what is asked for, as plain values. Nothing is read, printed or done here.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "audit/audit.hpp"
 #include "model/settings.hpp"
 #include "pipeline.hpp"
 
@@ -15,6 +19,7 @@ namespace cleancolor {
 
 // Exit codes; --help tells them.
 inline constexpr int exit_done = 0;
+inline constexpr int exit_exceeded = 1;
 inline constexpr int exit_wrong_input = 2;
 inline constexpr int exit_system = 3;
 inline constexpr int exit_interrupted = 130;
@@ -33,6 +38,32 @@ struct SliceCommand {
   bool json = false;
 };
 
+/// --fail-over: a figure of a scenario must not be greater.
+struct FigureLimit {
+  std::size_t scenario = 0;
+  const FigureInfo* figure = nullptr;  // never null
+  double most = 0;
+};
+
+/// cleancolor audit
+struct AuditCommand {
+  std::vector<std::filesystem::path> files;  // at least one
+  std::string printer;                       // name or file; empty: not said
+  std::vector<Vec2> nozzle_offset_mm;        // empty: not said
+  std::optional<OffsetsIn> offsets_in;
+  std::optional<IdleNozzle> idle_nozzle;
+  std::vector<Scenario> scenarios;  // what --sensitivity and --ooze make of them
+  std::size_t scenario = 0;         // the one that is shown first
+  std::vector<FigureLimit> limits;
+  bool compare = false;
+  std::optional<std::uint32_t> layer;          // 0-based, to be drawn; empty: the worst one
+  std::filesystem::path html, json, svg, png;  // empty: none
+  bool json_on_standard_output = false;
+  std::size_t places = 10;
+  int threads = 0;
+  bool quiet = false;
+};
+
 /// cleancolor profiles [show NAME]
 struct ProfilesCommand {
   std::string show;  // name or file; empty: list all
@@ -49,7 +80,7 @@ struct TextCommand {
   std::string text;
 };
 
-using Command = std::variant<SliceCommand, ProfilesCommand, OptionsCommand, TextCommand>;
+using Command = std::variant<SliceCommand, AuditCommand, ProfilesCommand, OptionsCommand, TextCommand>;
 
 /// arguments: without the program's name. Throws Error for anything that is not understood.
 Command parse_command_line(std::vector<std::string> arguments);

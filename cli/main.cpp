@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "base/error.hpp"
+#include "cli/audit.hpp"
 #include "cli/command_line.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/profiles.hpp"
@@ -14,9 +15,13 @@
 namespace cleancolor {
 namespace {
 
-void run(const Command& command) {
+/// The exit code.
+int run(const Command& command) {
+  int code = exit_done;
   if (const auto* slice = std::get_if<SliceCommand>(&command)) {
     run(*slice, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
+  } else if (const auto* audit = std::get_if<AuditCommand>(&command)) {
+    code = run(*audit, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
   } else if (const auto* profiles = std::get_if<ProfilesCommand>(&command)) {
     std::cout << text_of(*profiles);
   } else if (const auto* options = std::get_if<OptionsCommand>(&command)) {
@@ -25,6 +30,7 @@ void run(const Command& command) {
     std::cout << std::get<TextCommand>(command).text;
   }
   if (!std::cout.flush()) throw SystemError("standard output cannot be written");
+  return code;
 }
 
 int fail(int code, const char* message) {
@@ -39,8 +45,7 @@ int main(int argc, char** argv) {
   using namespace cleancolor;
   watch_interrupts();
   try {
-    run(parse_command_line({argv + 1, argv + argc}));
-    return exit_done;
+    return run(parse_command_line({argv + 1, argv + argc}));
   } catch (const SystemError& e) {
     return fail(exit_system, e.what());
   } catch (const Error& e) {

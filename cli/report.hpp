@@ -16,7 +16,4 @@ std::string summary_table(const Summary& summary, const SliceRequest& request);
 /// One JSON object and a new line; its fields are documented in `cleancolor slice --help`.
 std::string summary_json(const Summary& summary, const SliceRequest& request, const std::vector<std::string>& warnings);
 
-/// "1 h 02 min", "3 min 20 s", "45 s".
-std::string duration_text(double seconds);
-
 }  // namespace cleancolor

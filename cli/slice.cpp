@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "cli/console.hpp"
 #include "cli/report.hpp"
+#include "cli/separate_files.hpp"
 #include "model/options.hpp"
 #include "model/profile.hpp"
 
@@ -62,14 +63,6 @@ std::size_t needed_extruders(const SliceCommand& command) {
   return static_cast<std::size_t>(highest + 1);
 }
 
-bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code fault;
-  if (std::filesystem::equivalent(a, b, fault)) return true;
-  // One that is not there yet has only its name.
-  const auto whole_a = std::filesystem::weakly_canonical(std::filesystem::absolute(a, fault), fault);
-  return !fault && whole_a == std::filesystem::weakly_canonical(std::filesystem::absolute(b, fault), fault);
-}
-
 /// Meshes, the loaded configuration, and profiles that are files.
 std::vector<std::filesystem::path> inputs(const SliceCommand& command) {
   std::vector<std::filesystem::path> paths;
@@ -80,18 +73,6 @@ std::vector<std::filesystem::path> inputs(const SliceCommand& command) {
   for (const std::string& profile : profiles)
     if (profile.ends_with(".toml")) paths.emplace_back(profile);
   return paths;
-}
-
-/// Throws where an output would replace an input or the other output.
-void require_separate_files(const SliceCommand& command) {
-  for (const auto& input : inputs(command)) {
-    if (is_same_file(input, command.output))
-      throw Error(fmt::format("{}: input and output are the same file; name another with -o", input.string()));
-    if (!command.preview.empty() && is_same_file(input, command.preview))
-      throw Error(fmt::format("{}: input and --preview are the same file; name another picture", input.string()));
-  }
-  if (!command.preview.empty() && is_same_file(command.output, command.preview))
-    throw Error(fmt::format("{}: output and --preview are the same file; name another", command.output.string()));
 }
 
 }  // namespace
@@ -112,7 +93,7 @@ SliceRequest slice_request(const SliceCommand& command, const Progress& progress
     throw Error(fmt::format("--printer {}: the profile serves only to audit and re-plan G-code; print with {}",
                             command.settings.printer, printers_to_print_with(false)));
   }
-  require_separate_files(command);
+  require_separate_files(inputs(command), {{"output", command.output}, {"--preview", command.preview}});
   request.files = command.files;
   request.extruder_of_rgb = command.extruder_of_rgb;
   request.placement = command.placement;

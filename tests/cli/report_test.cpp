@@ -54,14 +54,5 @@ TEST(SummaryJson, IsTheDocumentedObject) {
   EXPECT_EQ(json["warnings"].size(), 1u);
 }
 
-TEST(Duration, IsTextThatAPersonReads) {
-  EXPECT_EQ(duration_text(0), "0 s");
-  EXPECT_EQ(duration_text(59.4), "59 s");
-  EXPECT_EQ(duration_text(59.6), "1 min 00 s");
-  EXPECT_EQ(duration_text(200), "3 min 20 s");
-  EXPECT_EQ(duration_text(3599.7), "1 h 00 min");
-  EXPECT_EQ(duration_text(26 * 3600), "26 h 00 min");
-}
-
 }  // namespace
 }  // namespace cleancolor
