@@ -16,14 +16,14 @@ double lightness(Colour c) {
 }
 
 Colour readable_on_white(Colour c) {
-  constexpr double lightest = 0.55;
+  constexpr double lightest = 0.45;
   const double l = lightness(c);
   return l <= lightest ? c : mixed(c, {0, 0, 0, 1}, 1 - lightest / l);
 }
 
 double text_width(std::string_view utf8, double height) {
   const auto letters = std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; });
-  return 0.56 * height * double(letters);
+  return 0.53 * height * double(letters);
 }
 
 // Liang and Barsky: the share of the way that is inside, border by border.

@@ -1,0 +1,129 @@
+#include "audit/html_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/base64.hpp"
+#include "base/printable.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr std::size_t largest_svg = 200'000;  // bytes
+
+// Pictures are drawn on white; on a dark page they lie there like paper.
+constexpr const char* style = R"(
+:root { color-scheme: light dark; --page: #f5f6f8; --card: #fff; --ink: #1d2025; --pale: #666c76; --line: #e0e3e8;
+  --accent: #b3261e; --notice: #fff4d6; }
+@media (prefers-color-scheme: dark) {
+  :root { --page: #15171b; --card: #1f2228; --ink: #e8eaed; --pale: #9aa1ac; --line: #343942; --accent: #ff8a80;
+    --notice: #3a3118; }
+}
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 1080px; padding: 24px 16px 48px; background: var(--page); color: var(--ink);
+  font: 15px/1.5 system-ui, "Segoe UI", Roboto, "Noto Sans", sans-serif; }
+body.several { max-width: 1800px; }
+h1 { font-size: 1.5rem; margin: 0 0 .2rem; overflow-wrap: anywhere; }
+h2 { font-size: 1.15rem; margin: 2rem 0 .6rem; }
+h3 { font-size: 1rem; margin: 1.2rem 0 .4rem; }
+p { margin: .3rem 0 .8rem; }
+.pale { color: var(--pale); }
+.verdict { font-size: 1.05rem; border-left: 4px solid var(--accent); padding-left: .8rem; margin: 1rem 0; }
+.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 12px; margin: 1rem 0; }
+.card { background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: 12px 14px; }
+.card b { display: block; font-size: 1.5rem; line-height: 1.25; font-variant-numeric: tabular-nums; }
+.card b small { font-size: .85rem; font-weight: 400; }
+.card span { color: var(--pale); font-size: .85rem; display: block; }
+.notice { background: var(--notice); border-radius: 10px; padding: 10px 14px; margin: 1rem 0; overflow-wrap: anywhere; }
+.notice ul { margin: .2rem 0; padding-left: 1.2rem; }
+.files { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 28px; }
+.files article { min-width: 0; border-top: 3px solid var(--line); padding-top: 1rem; }
+.sides { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 160px), 1fr)); gap: 12px; }
+figure { margin: 0 0 14px; background: #fff; color: #444; border: 1px solid var(--line); border-radius: 10px;
+  padding: 8px; text-align: center; }
+figure img { max-width: 100%; height: auto; display: block; margin: 0 auto; }
+figcaption { font-size: .85rem; }
+.scroll { overflow-x: auto; background: var(--card); border: 1px solid var(--line); border-radius: 10px; }
+table { border-collapse: collapse; width: 100%; font-size: .9rem; }
+th, td { padding: 5px 12px; text-align: right; border-top: 1px solid var(--line); font-variant-numeric: tabular-nums;
+  vertical-align: top; }
+tr:first-child > * { border-top: 0; }
+th { font-weight: 600; color: var(--pale); }
+th:first-child, td:first-child, .left { text-align: left; }
+td.group { font-weight: 600; padding-top: 12px; }
+code { font-size: .92em; }
+)";
+
+std::string data_picture(std::string_view type, std::string_view bytes, std::string_view description) {
+  return fmt::format("<img alt=\"{}\" src=\"data:image/{};base64,{}\">", html_text(description), type, base64(bytes));
+}
+
+}  // namespace
+
+std::string html_text(std::string_view text) {
+  std::string escaped;
+  for (const char c : printable(text)) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string html_picture(const Canvas& canvas, std::string_view description) {
+  const std::string svg = canvas.svg();
+  return svg.size() <= largest_svg ? data_picture("svg+xml", svg, description) : html_png(canvas.png(), description);
+}
+
+std::string html_png(std::string_view png, std::string_view description) {
+  return data_picture("png", png, description);
+}
+
+std::string html_table(const HtmlTable& table) {
+  std::string html = "<div class=\"scroll\"><table>\n";
+  const auto add_row = [&](const std::vector<std::string>& cells, const char* tag) {
+    html += "<tr>";
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const bool left = std::ranges::find(table.left_columns, i) != table.left_columns.end();
+      html += fmt::format("<{0}{1}>{2}</{0}>", tag, left ? " class=\"left\"" : "", cells[i]);
+    }
+    html += "</tr>\n";
+  };
+  add_row(table.head, "th");
+  for (const auto& row : table.rows) {
+    if (row.size() == 1)
+      html += fmt::format("<tr><td class=\"group\" colspan=\"{}\">{}</td></tr>\n", table.head.size(), row.front());
+    else
+      add_row(row, "td");
+  }
+  return html + "</table></div>\n";
+}
+
+std::string html_page(std::string_view title, std::string_view body) {
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+      "'unsafe-inline'\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{}</title>\n<style>{}</style>\n</head>\n{}</html>\n",
+      html_text(title), style, body);
+}
+
+}  // namespace cleancolor
