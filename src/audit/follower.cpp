@@ -56,7 +56,7 @@ void Follower::drive(const Drive& drive, std::span<const Crossing> crossings, do
       wiping_[n] = 0;
     } else if (begin == end || drive.z_mm > layer_z_mm + parameters_[n].touch_height_mm) {
       nozzles_[n].idle(seconds);
-      if (drive.moves_xy()) wiping_[n] = 0;
+      if (drive.moves_xy() || !drive.known) wiping_[n] = 0;
     } else {
       pass(drive, int(n), {begin, end}, seconds);
     }

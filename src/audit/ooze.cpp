@@ -99,7 +99,8 @@ NozzleState::Pushed NozzleState::push(double mm3, double seconds, bool prints) {
   slow_mm3_ = slow_reserve();
   elastic_mm3_ = most_elastic_mm3_ = seconds > 0 ? parameters_.elastic_time_s * mm3 / seconds : 0;
   // Whoever prints is hot, whatever the file told of its heater.
-  if (target_c_ > room_c) celsius_ = print_c_ = target_c_;
+  if (target_c_ > room_c) print_c_ = target_c_;
+  celsius_ = target_c_ = print_c_;
   return pushed;
 }
 

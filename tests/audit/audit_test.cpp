@@ -234,7 +234,7 @@ TEST(Audit, NonsenseOfAnyKindGivesFiniteFigures) {
     if (below(2)) d.marlin();
     d.layer(0).road({0, 0}, {1, 0});
     const char* odd[] = {"G28",        "T5",           "G92 X0 Y0 E0", "M109 S0 T1", "M104 S900 T9",
-                         "G4 S1000",   "G1 Z-5",       "G1 Z9000 E5",  "M205 X0 Y0", "M203 X0.001",
+                         "G4 S1000",   "G1 Z-5",       "G1 Z90 E5",    "M205 X0 Y0", "M203 X0.001",
                          "M201 X1 Y1", ";TYPE:Custom", "G91",          "G1 F0.001",  "G1 E-500",
                          "G1 E900",    "G90",          ";WIDTH:9999",  ";HEIGHT:0",  "G10"};
     for (int i = 0; i < 60; ++i) {

@@ -175,6 +175,18 @@ TEST(Ooze, HeatersTakeTheirTimeUpButNothingWaitsForCooling) {
   EXPECT_EQ(NozzleState(parameters).seconds_to_target(), 0) << "a file that tells no temperatures";
 }
 
+TEST(Ooze, ANozzleThatPrintsIsHotWhateverTheFileSays) {
+  OozeParameters parameters{.volume_mm3 = 2, .time_s = 40, .halving_c = 10};
+  NozzleState nozzle(parameters);
+  nozzle.set_target(200);
+  nozzle.start(200);
+  nozzle.set_target(0);
+  nozzle.idle(1000);
+  nozzle.push(10, 1, true);  // a macro has heated it
+  nozzle.idle(40);
+  EXPECT_NEAR(nozzle.carried_mm3(), 2 * (1 - std::exp(-1.0)), 1e-9);
+}
+
 TEST(Ooze, OddNumbersGiveFiniteOoze) {
   for (const OozeParameters& parameters :
        {OozeParameters{.volume_mm3 = 0}, OozeParameters{.time_s = 0}, OozeParameters{.time_s = 1e-300},
