@@ -37,7 +37,7 @@ VARIANTS = {
     "slic3r": ["plain", "skirt", "ooze", "acp", "fwoffset", "sailfish+fwoffset", "makerware+fwoffset"],
     "cura": ["plain", "shield", "tower", "shield+tower", "nocomb", "standby", "cool", "fwoffset", "makerbot+fwoffset"],
 }
-FIGURES = [("smear_volume", "smear, mm3"), ("hole_volume", "holes, mm3"), ("zippers_visible", "zippers")]
+FIGURES = [("smear_volume", "smear, mm3", 2), ("hole_volume", "holes, mm3", 2), ("zippers_visible", "zippers", 0)]
 PART_PERCENT = {"rose": 8.0}  # others: 3; Cura prints skin between colours and counts roads as w x h
 
 
@@ -88,11 +88,11 @@ def filament_mm3(judged, kind):
 
 def table(name, rows):
     """Markdown of one model; time and plastic are compared with the plain slicing of the same slicer."""
-    head = " | ".join(title for _, title in FIGURES)
+    head = " | ".join(title for _, title, _ in FIGURES)
     lines = [f"| {name} | {head} | smear, model | holes, model | time | part, cm3 | thrown away, cm3 |",
              "|" + "---|" * (len(FIGURES) + 6)]
     for (_, _, title), judged in rows:
-        figures = " | ".join(f"{figure(judged, key):.2f}" for key, _ in FIGURES)
+        figures = " | ".join(f"{figure(judged, key):.{digits}f}" for key, _, digits in FIGURES)
         likely = " | ".join(f"{figure(judged, key, 'model'):.2f}" for key in ("smear_volume", "hole_volume"))
         minutes = judged["print"]["time_s"] / 60
         lines.append(f"| {title} | {figures} | {likely} | {minutes:.0f} min | {filament_mm3(judged, 'part') / 1000:.2f} | "
@@ -111,7 +111,7 @@ def different_parts(name, rows):
 
 
 def plots(results, folder):
-    """Two pictures of all models: smear and holes of every slicer, and smear against time."""
+    """Two pictures of all models: smear and holes of every slicer, and both against time, as shares of PrusaSlicer's."""
     import matplotlib
     matplotlib.use("Agg")
     matplotlib.rcParams.update({"svg.hashsalt": "cleancolor", "svg.fonttype": "none", "font.size": 9})
@@ -120,7 +120,7 @@ def plots(results, folder):
     titles = [title.strip("*") for _, _, title in COMPARED]
     palette = ["#56B4E9", "#0072B2", "#00528A", "#8CC7E8", "#E69F00", "#D55E00", "#A04000", "#009E73"]
     plot, axes = pyplot.subplots(2, 1, figsize=(9, 6), sharex=True, constrained_layout=True)
-    for axis, (key, label) in zip(axes, FIGURES):
+    for axis, (key, label, _) in zip(axes, FIGURES):
         for k, title in enumerate(titles):
             places = [m + (k - len(titles) / 2 + 0.5) * 0.1 for m in range(len(results))]
             axis.bar(places, [figure(rows[k][1], key) for rows in results.values()], 0.1, color=palette[k],
@@ -130,20 +130,27 @@ def plots(results, folder):
         axis.grid(axis="y", alpha=0.3)
         axis.set_ylim(bottom=0)
     axes[1].set_xticks(range(len(results)), results.keys())
-    axes[0].legend(ncol=4, fontsize=7, loc="upper left")
+    axes[0].legend(ncol=4, fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
     plot.savefig(folder / "quality-figures.svg", metadata={"Date": None})
     pyplot.close(plot)
 
     plot, axis = pyplot.subplots(figsize=(9, 4.5), constrained_layout=True)
+    def minutes(judged):
+        return judged["print"]["time_s"] / 60
+
+    def dirt(judged):
+        return figure(judged, "smear_volume") + figure(judged, "hole_volume")
+
     for k, title in enumerate(titles):
-        axis.scatter([rows[k][1]["print"]["time_s"] / 60 for rows in results.values()],
-                     [figure(rows[k][1], "smear_volume") + figure(rows[k][1], "hole_volume") for rows in results.values()],
-                     s=28, color=palette[k], label=title)
-    axis.set_xlabel("print time, min")
-    axis.set_ylabel("smear + holes, mm3, worst case")
+        plain = [rows[0][1] for rows in results.values()]
+        own = [rows[k][1] for rows in results.values()]
+        axis.scatter([100 * (minutes(j) / minutes(p) - 1) for j, p in zip(own, plain)],
+                     [100 * dirt(j) / dirt(p) for j, p in zip(own, plain)], s=28, color=palette[k], label=title)
+    axis.set_xlabel("print time, % over PrusaSlicer's plain print of the same model")
+    axis.set_ylabel("smear + holes, worst case, % of its")
     axis.set_yscale("log")
     axis.grid(alpha=0.3)
-    axis.legend(ncol=2, fontsize=7)
+    axis.legend(ncol=4, fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
     plot.savefig(folder / "quality-time.svg", metadata={"Date": None})
     pyplot.close(plot)
 
