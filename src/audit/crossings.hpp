@@ -37,8 +37,8 @@ struct LayerMoves {
 };
 LayerMoves layer_moves(const GcodePrint& print, const Timeline& time);
 
-/// The roads of a layer where their plastic lies, in the order of the drives that lay them. What the file calls wider
-/// or leaves open is mended from the amount.
+/// The roads of a layer where their plastic lies, in the order of the drives that lay them. A width that nobody tells
+/// follows from the amount.
 struct LayerRoads {
   std::vector<LabelledRoad> roads;
   std::vector<std::uint32_t> moves;   // of each
