@@ -23,10 +23,10 @@ namespace cleancolor {
 
 /// What the user says; what is empty is looked for in the file.
 struct MachineRequest {
-  std::optional<Config> printer;       // a printer profile
-  std::vector<Vec2> nozzle_offset_mm;  // of each nozzle as seen from nozzle 0
-  std::optional<OffsetsIn> offsets_in;
-  std::optional<IdleNozzle> idle_nozzle;
+  std::optional<Config> printer = {};       // a printer profile
+  std::vector<Vec2> nozzle_offset_mm = {};  // of each nozzle as seen from nozzle 0
+  std::optional<OffsetsIn> offsets_in = {};
+  std::optional<IdleNozzle> idle_nozzle = {};
 };
 
 struct AuditNozzle {
