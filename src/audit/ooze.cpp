@@ -26,7 +26,7 @@ OozeParameters model_ooze() {
   return {.volume_mm3 = 2,
           .time_s = 40,
           .missing_is_spent = true,
-          .elastic_time_s = 0.1,
+          .elastic_time_s = 0.05,
           .halving_c = 10,
           .heating_c_s = 2,
           .cooling_c_s = 2,

@@ -37,9 +37,13 @@ struct OozeParameters {
 /// V = 2 mm3, tau = 20 s: what the paper refills, and "re-appears after a few seconds on idle extruders".
 OozeParameters worst_ooze();
 
-/// V = 2 mm3 likewise; tau = 40 s: the middle of 20 to 60 s, measured for PLA and ABS. K = 0.1 s: between direct drives
-/// (0.05) and Bowden tubes (0.4). Half the ooze for each 10 degrees: Arrhenius' law for melts of PLA and ABS. Heaters
-/// of 2 degrees a second: what slicers assume. A tip lifted by 0.6 mm touches nothing: a drop of 0.1 mm3 hangs so deep.
+/// V = 2 mm3 likewise; tau = 40 s: the middle of 20 to 60 s, for PLA and ABS. K = 0.05 s: pressure advance of direct
+/// drives; Bowden tubes have 0.4 and more. Half the ooze for each 10 degrees: Arrhenius' law for melts of PLA and ABS.
+/// Heaters of 2 degrees a second: what slicers assume. A tip lifted by 0.6 mm touches nothing: a drop of 0.1 mm3 hangs
+/// so deep.
+///
+/// Holes of the model are more than those of worst where many strokes begin after a short way without retraction: each
+/// of them first builds up the pressure again, for K x flow mm3 at most. That is the thin start of a seam.
 OozeParameters model_ooze();
 
 /// Variants of the definitions, for --sensitivity.
