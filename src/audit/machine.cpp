@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 #include "audit/offset_guess.hpp"
@@ -28,15 +29,12 @@ std::string_view name_of(OffsetsIn in) {
   return in == OffsetsIn::slicer ? "slicer" : "firmware";
 }
 
-/// The printer as the file's own configuration describes it; nothing where it has none that can be read.
+/// The limits of the printer as the file's own configuration tells them; nothing where it has none that can be read.
 std::optional<Config> config_in(const GcodePrint& print, const Progress& progress) {
-  const bool has_limits = std::ranges::any_of(print.facts.config, [](const IniEntry& e) {
-    return e.key.starts_with("machine_max_") || e.key == "nozzle_diameter";
-  });
-  if (!has_limits) return std::nullopt;
   std::vector<IniEntry> entries;
   for (const IniEntry& entry : print.facts.config)
     if (entry.key.starts_with("machine_max_") || entry.key == "nozzle_diameter") entries.push_back(entry);
+  if (entries.empty()) return std::nullopt;
   try {
     return with_ini(Config{}, entries, print.name).config;
   } catch (const Error& fault) {
@@ -45,12 +43,29 @@ std::optional<Config> config_in(const GcodePrint& print, const Progress& progres
   }
 }
 
+/// What to type, with as many nozzles as the print has.
+std::string example(const GcodePrint& print) {
+  std::vector<Vec2> offsets;
+  for (int n = 0; n < print.tools; ++n) offsets.push_back({33. * n, 0});
+  return fmt::format("--nozzle-offset {} --offsets-in {}", text_of(offsets),
+                     name_of(print.facts.offsets_in.value_or(OffsetsIn::firmware)));
+}
+
 /// Several nozzles print, and nothing tells where they are.
 [[noreturn]] void fail_without_offsets(const GcodePrint& print) {
-  throw Error(fmt::format(
-      "{}: {} nozzles print, and the file does not say where they are; choose the printer with --printer, or "
-      "say it: --nozzle-offset 0x0,33x0 --offsets-in {}",
-      print.name, print.tools, name_of(print.facts.offsets_in.value_or(OffsetsIn::firmware))));
+  const bool one_nozzle = std::ranges::any_of(print.facts.config, [](const IniEntry& e) {
+    return e.key == "single_extruder_multi_material" && e.value == "1";
+  });
+  if (one_nozzle) {
+    throw Error(
+        fmt::format("{}: by its configuration (single_extruder_multi_material) this print changes filament in one "
+                    "nozzle, and no idle nozzle can ooze; if the printer has several, say where they are: {}",
+                    print.name, example(print)));
+  }
+  throw Error(
+      fmt::format("{}: {} nozzles print, and the file does not say where they are; choose the printer with --printer, "
+                  "or say it: {}",
+                  print.name, print.tools, example(print)));
 }
 
 class Finder {
@@ -88,11 +103,10 @@ class Finder {
       guess();
     }
     if (offsets_.size() < tools) {
-      throw Error(
-          fmt::format("{}: {} nozzles print, but offsets of {} are given ({}); give one for each: --nozzle-offset "
-                      "0x0,33x0,...",
-                      print_.name, tools, offsets_.size(), machine_.offsets_source));
+      throw Error(fmt::format("{}: {} nozzles print, but offsets of {} are given ({}); give one for each: {}",
+                              print_.name, tools, offsets_.size(), machine_.offsets_source, example(print_)));
     }
+    for (std::size_t n = offsets_.size(); n-- > 0;) offsets_[n] = offsets_[n] - offsets_[0];
     for (const Vec2 offset : offsets_) machine_.nozzles.emplace_back().offset_mm = offset;
     if (!request_.nozzle_offset_mm.empty() || request_.printer) compare_with_file();
   }
@@ -134,23 +148,27 @@ class Finder {
     } else if (fits) {
       machine_.offsets_in = *fits;
       machine_.offsets_in_source = "a guess from the geometry";
-      progress_.warn(
-          fmt::format("{}: the file does not say who makes up for the nozzle offsets; its colours fit together with "
-                      "--offsets-in {}, which is taken",
-                      print_.name, name_of(*fits)));
+      if (request_.printer && request_.printer->offsets_in == *fits) return;  // no more than was expected
+      progress_.warn(fmt::format(
+          "{}: the file does not say who makes up for the nozzle offsets; its colours fit together with "
+          "--offsets-in {}, which is taken{}; say it yourself if it is wrong",
+          print_.name, name_of(*fits),
+          request_.printer ? fmt::format(" although the printer says {}", name_of(request_.printer->offsets_in)) : ""));
       return;
     } else {
       machine_.offsets_in = request_.printer ? request_.printer->offsets_in : OffsetsIn::firmware;
       machine_.offsets_in_source = request_.printer ? machine_.offsets_source : "the default";
       if (print_.tools > 1 && apart)
         progress_.warn(
-            fmt::format("{}: the file does not say who makes up for the nozzle offsets; --offsets-in {} is taken",
-                        print_.name, name_of(machine_.offsets_in)));
+            fmt::format("{}: neither the file nor its plastic tells who makes up for the nozzle offsets; --offsets-in "
+                        "{} is taken ({}); say it yourself if it is wrong",
+                        print_.name, name_of(machine_.offsets_in), machine_.offsets_in_source));
       return;
     }
     if (fits && *fits != machine_.offsets_in) {
       progress_.warn(
-          fmt::format("{}: with --offsets-in {} ({}) the colours do not fit together; with --offsets-in {} they would",
+          fmt::format("{}: with --offsets-in {} ({}) the colours do not fit together; with --offsets-in {} they would: "
+                      "check it",
                       print_.name, name_of(machine_.offsets_in), machine_.offsets_in_source, name_of(*fits)));
     }
   }
@@ -170,7 +188,9 @@ double told_for(const std::vector<double>& list, std::size_t n, double otherwise
 /// "#RRGGBB"; nothing where it is none.
 std::optional<std::uint32_t> rgb_of(const std::string& text) {
   if (text.size() != 7 || text[0] != '#') return std::nullopt;
-  return std::uint32_t(std::stoul(text.substr(1), nullptr, 16));
+  std::uint32_t rgb = 0;
+  const auto [end, fault] = std::from_chars(text.data() + 1, text.data() + 7, rgb, 16);
+  return fault == std::errc{} && end == text.data() + 7 ? std::optional(rgb) : std::nullopt;
 }
 
 bool close(std::uint32_t a, std::uint32_t b) {
@@ -206,8 +226,7 @@ void put_colours(const GcodePrint& print, const MachineRequest& request, AuditMa
 
 AuditMachine audit_machine(const GcodePrint& print, const MachineRequest& request, const Progress& progress) {
   AuditMachine machine = Finder(print, request, progress).machine();
-  const std::optional<Config> own = config_in(print, progress);
-  machine.limits = motion_limits(request.printer ? *request.printer : own.value_or(Config{}));
+  machine.limits = motion_limits(request.printer ? *request.printer : config_in(print, progress).value_or(Config{}));
   machine.idle_nozzle =
       request.idle_nozzle.value_or(request.printer ? request.printer->idle_nozzle : IdleNozzle::same_height);
   for (std::size_t n = 0; n < machine.nozzles.size(); ++n) {

@@ -262,9 +262,17 @@ std::optional<Vec2> guessed_offset_mm(const std::vector<Pair>& pairs) {
   const Place best = *std::ranges::max_element(places, {}, &Place::score);
   const auto far = [](Cell a, Cell b) { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) > distinct_cells; };
   if (best.score < least_score || !far(best.at, {})) return std::nullopt;
-  for (const Place& other : places)
-    if (far(other.at, best.at) && 2 * other.score > best.score) return std::nullopt;
-  return Vec2{best.at.x * cell_mm, best.at.y * cell_mm};
+  // Where several places are as good, which are close then, the one amid them.
+  double x = 0, y = 0;
+  int equals = 0;
+  for (const Place& place : places) {
+    if (far(place.at, best.at) && 2 * place.score > best.score) return std::nullopt;
+    if (place.score < best.score) continue;
+    x += place.at.x, y += place.at.y;
+    ++equals;
+  }
+  const auto middle_mm = [&](double sum) { return std::round(sum / equals * cell_mm * 100) / 100; };
+  return Vec2{middle_mm(x), middle_mm(y)};
 }
 
 }  // namespace

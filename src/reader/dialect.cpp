@@ -7,12 +7,13 @@
 #include "model/text_scan.hpp"
 
 namespace cleancolor {
-namespace {
 
 struct RoleName {
   std::string_view name;
   Role role;
 };
+
+namespace {
 
 // ;TYPE: of PrusaSlicer and its relatives, ;TYPE: and FEATURE: of OrcaSlicer and BambuStudio, ;TYPE: of Cura and
 // ideaMaker.
@@ -94,31 +95,42 @@ constexpr std::array<RoleName, 15> simplify3d_names = {{
     {"external single extrusion", Role::external_perimeter},
 }};
 
-// KISSlicer: "'Perimeter Path', 0.7 [feed mm/s], ...". A loop is an inner perimeter.
-constexpr std::array<RoleName, 16> kisslicer_names = {{
-    {"Perimeter Path", Role::external_perimeter},
-    {"Loop Path", Role::perimeter},
-    {"Solid Path", Role::solid_infill},
-    {"Crown Path", Role::gap_fill},
-    {"Sparse Infill Path", Role::internal_infill},
-    {"Stacked Sparse Infill Path", Role::internal_infill},
-    {"Support Interface Path", Role::support_interface},
-    {"Support (may Stack) Path", Role::support},
-    {"Support Path", Role::support},
-    {"Raft Path", Role::support},
-    {"Pillar Path", Role::wipe_tower},
-    {"Prime Pillar Path", Role::wipe_tower},
-    {"Skirt Path", Role::skirt_brim},
-    {"Wall Path", Role::skirt_brim},
-    {"Destring/Wipe/Jump Path", Role::custom},
-    {"Travel/Ironing Path", Role::ironing},
+// KISSlicer: "'Perimeter Path', 0.7 [feed mm/s], ...". A loop is an inner perimeter. All kinds of support begin with
+// "Support".
+constexpr std::array<RoleName, 15> kisslicer_names = {{
+    {"Perimeter", Role::external_perimeter},
+    {"Loop", Role::perimeter},
+    {"Solid", Role::solid_infill},
+    {"Crown", Role::gap_fill},
+    {"Sparse Infill", Role::internal_infill},
+    {"Stacked Sparse Infill", Role::internal_infill},
+    {"Support Interface", Role::support_interface},
+    {"Raft", Role::support},
+    {"Pillar", Role::wipe_tower},
+    {"Prime Pillar", Role::wipe_tower},
+    {"Skirt", Role::skirt_brim},
+    {"Brim", Role::skirt_brim},
+    {"Wall", Role::skirt_brim},
+    {"Destring/Wipe/Jump", Role::custom},
+    {"Travel/Ironing", Role::ironing},
 }};
 
-// Slic3r and Simplify3D write the kind behind every move where they are asked to.
-constexpr std::array<RoleName, 8> behind_names = {{
+// Behind the moves of Slic3r and of PrusaSlicer before 2.3 with verbose comments; spellings changed between versions.
+constexpr std::array<RoleName, 19> behind_names = {{
     {"perimeter", Role::perimeter},
+    {"small perimeter", Role::perimeter},
+    {"contour internal perimeter", Role::perimeter},
+    {"external perimeter", Role::external_perimeter},
+    {"external small perimeter", Role::external_perimeter},
+    {"perimeter external", Role::external_perimeter},
+    {"overhang perimeter", Role::overhang_perimeter},
     {"infill", Role::internal_infill},
+    {"fill", Role::internal_infill},
     {"solid infill", Role::solid_infill},
+    {"solid fill", Role::solid_infill},
+    {"top solid infill", Role::top_solid_infill},
+    {"top solid fill", Role::top_solid_infill},
+    {"bridge", Role::bridge_infill},
     {"skirt", Role::skirt_brim},
     {"brim", Role::skirt_brim},
     {"support material", Role::support},
@@ -135,6 +147,16 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
   return text;
+}
+
+/// "'Perimeter Path', 0.7 [feed mm/s]"; nothing for other words in quotes ("'Destring Prime'"): the path goes on.
+std::optional<Role> kisslicer_role(std::string_view text) {
+  constexpr std::string_view ending = " Path";
+  std::string_view name = text.substr(1, std::min(text.find('\'', 1), text.size()) - 1);
+  if (!name.ends_with(ending)) return std::nullopt;
+  name.remove_suffix(ending.size());
+  if (const auto role = role_of(kisslicer_names, name)) return role;
+  return name.starts_with("Support") ? Role::support : Role::unknown;
 }
 
 /// The number behind a tag; 0 where there is none.
@@ -154,6 +176,23 @@ double letter_value(std::string_view text, char letter) {
 
 }  // namespace
 
+void CommentReader::says(std::string_view name, std::span<const RoleName> names) {
+  state_.role = role_of(names, trimmed(name)).value_or(Role::unknown);
+  on_own_lines_ = true;
+}
+
+void CommentReader::begin(Block block, Role role) {
+  std::optional<Role>& before = before_[std::size_t(block)];
+  if (!before || state_.role != role) before = state_.role;
+  state_.role = role;
+}
+
+void CommentReader::end(Block block) {
+  std::optional<Role>& before = before_[std::size_t(block)];
+  if (before) state_.role = *before;
+  before.reset();
+}
+
 void CommentReader::comment(std::string_view text) {
   text = trimmed(text);
   if (text.empty()) return;
@@ -164,20 +203,25 @@ void CommentReader::comment(std::string_view text) {
   };
   switch (text.front()) {
     case 'T':
-      if (tagged("TYPE:")) state_.role = role_of(type_names, trimmed(text)).value_or(Role::unknown);
+      if (tagged("TYPE:")) says(text, type_names);
       break;
     case 'W':
       if (tagged("WIDTH:")) state_.width_mm = told(text);
-      if (tagged("WIPE_TOWER_START")) before_tower_ = state_.role, state_.role = Role::wipe_tower;
-      if (tagged("WIPE_TOWER_END") && state_.role == Role::wipe_tower) state_.role = before_tower_;
+      if (text == "WIPE_TOWER_START") begin(tower, Role::wipe_tower);
+      if (text == "WIPE_TOWER_END") end(tower);
+      break;
+    case 'C':
+      // Toolchanges of a wipe tower say no type of their own in some versions.
+      if (text == "CP TOOLCHANGE START") begin(toolchange, Role::wipe_tower);
+      if (text == "CP TOOLCHANGE END") end(toolchange);
       break;
     case 'H':
       if (tagged("HEIGHT:")) state_.height_mm = told(text);
       break;
     case 'F':
-      if (tagged("FEATURE:")) state_.role = role_of(type_names, trimmed(text)).value_or(Role::unknown);
-      if (tagged("FLUSH_START")) before_tower_ = state_.role, state_.role = Role::custom;
-      if (tagged("FLUSH_END") && state_.role == Role::custom) state_.role = before_tower_;
+      if (tagged("FEATURE:")) says(text, type_names);
+      if (text == "FLUSH_START") begin(flush, Role::custom);
+      if (text == "FLUSH_END") end(flush);
       break;
     case 'L':
       if (tagged("LINE_WIDTH:")) state_.width_mm = told(text);
@@ -187,12 +231,12 @@ void CommentReader::comment(std::string_view text) {
       if (tagged("MESH:")) state_.object = trimmed(text) != "NONMESH";
       break;
     case 'R':
-      if (tagged("REFILL_START")) before_tower_ = state_.role, state_.role = Role::refill;
-      if (tagged("REFILL_END") && state_.role == Role::refill) state_.role = before_tower_;
+      if (text == "REFILL_START") begin(refill, Role::refill);
+      if (text == "REFILL_END") end(refill);
       if (tagged("RAMPART_WALL:")) state_.role = Role::skirt_brim;
       break;
     case 'f':
-      if (tagged("feature ")) state_.role = role_of(simplify3d_names, trimmed(text)).value_or(Role::unknown);
+      if (tagged("feature ")) says(text, simplify3d_names);
       break;
     case 't':
       if (tagged("tool H")) {
@@ -201,11 +245,10 @@ void CommentReader::comment(std::string_view text) {
       }
       break;
     case '\'':
-      if (const std::size_t end = text.find('\'', 1); end != std::string_view::npos)
-        state_.role = role_of(kisslicer_names, text.substr(1, end - 1)).value_or(Role::unknown);
+      if (const auto role = kisslicer_role(text)) state_.role = *role;
       break;
     case 'B':
-      if (tagged("BEGIN_LAYER_OBJECT ")) {
+      if (tagged("BEGIN_LAYER_")) {
         if (const std::size_t at = text.find("z_thickness="); at != std::string_view::npos) {
           const std::string_view value = text.substr(at + 12);
           state_.height_mm = told(value.substr(0, value.find(' ')));
@@ -221,7 +264,9 @@ void CommentReader::comment(std::string_view text) {
 }
 
 void CommentReader::comment_behind_command(std::string_view text) {
-  if (facts_.dialect != Dialect::slic3r && facts_.dialect != Dialect::unknown) return;
+  if (on_own_lines_) return;
+  const Dialect dialect = facts_.dialect;
+  if (dialect != Dialect::slic3r && dialect != Dialect::prusaslicer && dialect != Dialect::unknown) return;
   if (const auto role = role_of(behind_names, trimmed(text))) state_.role = *role;
 }
 

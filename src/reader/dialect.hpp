@@ -6,11 +6,12 @@
 //
 // Dialects: PrusaSlicer, SuperSlicer, Slic3r (its verbose comments behind moves), OrcaSlicer and BambuStudio (both
 // spellings), Cura (Marlin and Griffin headers), Simplify3D, KISSlicer, ideaMaker, and our own.
-// Simplify3D, KISSlicer, BambuStudio and Cura's Griffin are known from hand-written samples only
-// (tests/reader/samples).
+// Which of them were tried on real files: docs/gcode-dialects.md.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "reader/print.hpp"
@@ -25,6 +26,9 @@ struct CommentState {
   bool object = true;    // false: the comment says that what follows belongs to no object (;MESH:NONMESH)
 };
 
+struct RoleName;
+
+/// Cost: about 20 ns a comment, 100 ns where it tells a role; no allocation.
 class CommentReader {
  public:
   explicit CommentReader(GcodeFacts& facts) : facts_(facts) {}
@@ -32,15 +36,23 @@ class CommentReader {
   /// A comment on a line of its own; text without the ';'. Anything not known is left alone.
   void comment(std::string_view text);
 
-  /// A comment behind a command: Slic3r's and Simplify3D's verbose words ("perimeter", "brim", "skirt").
+  /// A comment behind a command: Slic3r's verbose words ("perimeter", "brim"), in files that tell roles nowhere else.
   void comment_behind_command(std::string_view text);
 
   const CommentState& state() const { return state_; }
 
  private:
+  /// What interrupts other things: after its end, what was printed before goes on.
+  enum Block : std::size_t { tower, toolchange, flush, refill, blocks };
+
+  void says(std::string_view name, std::span<const RoleName> names);
+  void begin(Block block, Role role);
+  void end(Block block);
+
   GcodeFacts& facts_;
   CommentState state_;
-  Role before_tower_ = Role::unknown;  // of what a tower, a flush or a refill interrupts
+  std::array<std::optional<Role>, blocks> before_;  // of each block that is open
+  bool on_own_lines_ = false;                       // roles are told by comments on lines of their own
 };
 
 /// Reads the configuration block and the header of the file into the facts: producer, dialect, offsets, filament.
