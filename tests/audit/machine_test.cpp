@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "audit/offset_guess.hpp"
 #include "reader/read.hpp"
 #include "support_errors.hpp"
 
@@ -72,15 +71,6 @@ TEST(AuditMachine, WarnsWhereTheUsersWordContradictsThePlastic) {
   EXPECT_NE(warned.warnings[0].find("--offsets-in slicer"), std::string::npos) << warned.warnings[0];
 }
 
-TEST(AuditMachine, FindsANozzleThatNobodySaysAnythingOf) {
-  const GcodePrint print = read_gcode(two_blocks(-25), "a.gcode");
-  Warned warned;
-  const AuditMachine machine = audit_machine(print, {}, warned.progress);
-  EXPECT_NEAR(machine.nozzles[1].offset_mm.x, 25, 1);
-  EXPECT_EQ(machine.offsets_in, OffsetsIn::slicer);
-  EXPECT_EQ(warned.warnings.size(), 1u);
-}
-
 TEST(AuditMachine, AsksWhereNothingTells) {
   const GcodePrint print = read_gcode(two_blocks(0), "a.gcode");
   EXPECT_ERROR(audit_machine(print, {}), "--nozzle-offset 0x0,33x0");
@@ -118,14 +108,80 @@ TEST(AuditMachine, ColoursThatCannotBeToldApartBecomeAPalette) {
   EXPECT_NE(machine.nozzles[0].rgb, machine.nozzles[1].rgb);
 }
 
-TEST(OffsetFit, TouchingColoursFitAndOverlappingOnesDoNot) {
-  const GcodePrint print = read_gcode(two_blocks(-33), "a.gcode");
-  const OffsetFit right = offset_fit(print, offsets), apart = offset_fit(print, {}),
-                  over = offset_fit(print, {{0, 0}, {23, 0}});
-  EXPECT_GT(right.touching, 0.03);
-  EXPECT_LT(right.overlapping, 0.03);
-  EXPECT_EQ(apart.touching, 0);
-  EXPECT_GT(over.overlapping, 0.9);
+/// A printer whose second nozzle is `x` mm to the right.
+Config printer(double x, OffsetsIn in) {
+  Config config;
+  config.printer_model = "two nozzles";
+  config.extruders.resize(2);
+  config.extruders[1].nozzle_offset_mm = {x, 0};
+  config.offsets_in = in;
+  config.machine_max_feedrate_mm_s = {77, 77, 7};
+  config.idle_nozzle = IdleNozzle::lifted;
+  return config;
+}
+
+TEST(AuditMachine, TheFileSaysWhereItsPlasticLiesWhateverThePrinterDoes) {
+  const GcodePrint print = read_gcode(two_blocks(-33, "", "; extruder_offset = 0x0,33x0\n"), "a.gcode");
+  Warned warned;
+  const AuditMachine machine = audit_machine(print, {.printer = printer(33, OffsetsIn::firmware)}, warned.progress);
+  EXPECT_EQ(machine.offsets_in, OffsetsIn::slicer);
+  EXPECT_EQ(machine.offsets_source, "printer two nozzles");
+  EXPECT_TRUE(warned.warnings.empty());
+}
+
+TEST(AuditMachine, WarnsWhereThePrinterHasOtherNozzlesThanTheFile) {
+  const GcodePrint print = read_gcode(two_blocks(-33, "", "; extruder_offset = 0x0,33x0\n"), "a.gcode");
+  Warned warned;
+  const AuditMachine machine = audit_machine(print, {.printer = printer(33.2, OffsetsIn::firmware)}, warned.progress);
+  EXPECT_EQ(machine.nozzles[1].offset_mm, (Vec2{33.2, 0}));
+  ASSERT_EQ(warned.warnings.size(), 1u);
+  EXPECT_NE(warned.warnings[0].find("0x0,33x0"), std::string::npos) << warned.warnings[0];
+}
+
+TEST(AuditMachine, ThePrinterOfTheUserWinsOverTheLimitsOfTheFile) {
+  const GcodePrint print =
+      read_gcode(two_blocks(0, "", "; machine_max_feedrate_x = 500\n; nozzle_diameter = 0.4,0.4\n"), "a.gcode");
+  const AuditMachine machine = audit_machine(print, {.printer = printer(33, OffsetsIn::firmware)});
+  EXPECT_DOUBLE_EQ(machine.limits.max_speed_mm_s[0], 77);
+  EXPECT_EQ(machine.idle_nozzle, IdleNozzle::lifted);
+  const AuditMachine told =
+      audit_machine(print, {.printer = printer(33, OffsetsIn::firmware), .idle_nozzle = IdleNozzle::docked});
+  EXPECT_EQ(told.idle_nozzle, IdleNozzle::docked);
+}
+
+TEST(AuditMachine, WhatThePrinterAndThePlasticSayAlikeIsNoWarning) {
+  const GcodePrint print = read_gcode(two_blocks(0), "a.gcode");
+  Warned warned;
+  EXPECT_EQ(audit_machine(print, {.printer = printer(33, OffsetsIn::firmware)}, warned.progress).offsets_in,
+            OffsetsIn::firmware);
+  EXPECT_TRUE(warned.warnings.empty());
+  EXPECT_EQ(audit_machine(print, {.printer = printer(33, OffsetsIn::slicer)}, warned.progress).offsets_in,
+            OffsetsIn::firmware);
+  EXPECT_EQ(warned.warnings.size(), 1u);
+}
+
+TEST(AuditMachine, OffsetsAreSeenFromNozzleZero) {
+  const GcodePrint print = read_gcode(two_blocks(0), "a.gcode");
+  const AuditMachine machine =
+      audit_machine(print, {.nozzle_offset_mm = {{-10, 1}, {23, 2}}, .offsets_in = OffsetsIn::firmware});
+  EXPECT_EQ(machine.nozzles[0].offset_mm, (Vec2{0, 0}));
+  EXPECT_EQ(machine.nozzles[1].offset_mm, (Vec2{33, 1}));
+}
+
+TEST(AuditMachine, FilamentChangedInOneNozzleOozesFromNoOther) {
+  const GcodePrint print =
+      read_gcode(two_blocks(0, "", "; extruder_offset = 0x0,0x0\n; single_extruder_multi_material = 1\n"), "a.gcode");
+  EXPECT_ERROR(audit_machine(print, {}), "one nozzle");
+}
+
+TEST(AuditMachine, LimitsThatCannotBeReadAreWarnedOf) {
+  const GcodePrint print =
+      read_gcode(two_blocks(-33, "", "; extruder_offset = 0x0,33x0\n; machine_max_feedrate_x = fast\n"), "a.gcode");
+  Warned warned;
+  const AuditMachine machine = audit_machine(print, {}, warned.progress);
+  ASSERT_EQ(warned.warnings.size(), 1u);
+  EXPECT_NE(warned.warnings[0].find("machine_max_feedrate_x"), std::string::npos) << warned.warnings[0];
+  EXPECT_DOUBLE_EQ(machine.limits.max_speed_mm_s[0], Config{}.machine_max_feedrate_mm_s.x);
 }
 
 }  // namespace
