@@ -81,8 +81,8 @@ void find_producer(const std::vector<std::string_view>& lines, GcodeFacts& facts
       facts.dialect = found->dialect;
       name = found->name;
       version = version_in(text.substr(found->mark.size()));
-    } else if (text.starts_with("GENERATOR.VERSION:") || (text.starts_with("version ") && version.empty())) {
-      version = version_in(text);
+    } else if (version.empty() && (text.starts_with("GENERATOR.VERSION:") || text.starts_with("version "))) {
+      version = version_in(text.substr(text.find_first_of(": ")));
     }
   }
   facts.producer = version.empty() ? std::string(name) : fmt::format("{} {}", name, version);

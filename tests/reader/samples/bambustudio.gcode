@@ -5,7 +5,8 @@
 ; HEADER_BLOCK_END
 
 ; CONFIG_BLOCK_START
-; extruder_offset = 0x0,0x0
+; extruder_colour = #018001;#018001
+; extruder_offset = 0x2,0x2
 ; filament_colour = #FFFFFF;#C12E1F
 ; filament_density = 1.24,1.24
 ; filament_diameter = 1.75,1.75

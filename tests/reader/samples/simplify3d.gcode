@@ -4,7 +4,8 @@
 ;   extruderDiameter,0.4
 ;   layerHeight,0.2
 ;   useOozeShield,1
-;   filamentDiameters,1.75|1.75|1.75|1.75|1.75|1.75
+;   filamentDiameters,1.75|2.85|1.75|1.75|1.75|1.75
+;   filamentDensities,1.25|1.04|1.25|1.25|1.25|1.25
 G90
 M82
 M106 S0
