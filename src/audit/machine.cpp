@@ -47,8 +47,9 @@ std::optional<Config> config_in(const GcodePrint& print, const Progress& progres
 std::string example(const GcodePrint& print) {
   std::vector<Vec2> offsets;
   for (int n = 0; n < print.tools; ++n) offsets.push_back({33. * n, 0});
-  return fmt::format("--nozzle-offset {} --offsets-in {}", text_of(offsets),
-                     name_of(print.facts.offsets_in.value_or(OffsetsIn::firmware)));
+  const std::string text = fmt::format("--nozzle-offset {}", text_of(offsets));
+  if (print.facts.offsets_in) return fmt::format("{} --offsets-in {}", text, name_of(*print.facts.offsets_in));
+  return fmt::format("{} (and --offsets-in slicer, or --offsets-in firmware, where you know which)", text);
 }
 
 /// Several nozzles print, and nothing tells where they are.

@@ -46,12 +46,17 @@ struct AuditMachine {
   std::string offsets_in_source;
 };
 
-/// Offsets of the nozzles: --nozzle-offset, else the printer profile, else the file, else the guess. Who applies them:
-/// the user, else the file (a non-zero extruder_offset: slicer; zeroes: firmware), else the geometry
-/// (audit/offset_guess.hpp), else the profile. What was guessed, and what contradicts the geometry, is warned of.
+/// Offsets of the nozzles: --nozzle-offset, else the printer profile, else the file, else the guess; always as seen
+/// from the first. Who applies them: the user, else the file (a non-zero extruder_offset: slicer, whatever the profile
+/// says, for there lies the plastic; zeroes: firmware), else the geometry (audit/offset_guess.hpp), else the profile.
+/// What was guessed, and what contradicts the geometry or the file by more than 0.1 mm, is warned of.
 ///
-/// Throws Error where several tools print and nothing tells where their nozzles are (what to say is in the message), or
-/// where fewer offsets are given than the print has tools.
+/// Limits: the profile's, else those of the file's configuration, else the defaults of model/config.hpp. Filament: the
+/// file's, else the profile's. Colours: the file's, else the profile's, where all can be told apart, else a palette.
+/// One tool needs no offsets.
+///
+/// Throws Error where several tools print and nothing tells where their nozzles are (what to type is in the message),
+/// or where fewer offsets are given than the print has tools.
 AuditMachine audit_machine(const GcodePrint& print, const MachineRequest& request, const Progress& progress = {});
 
 /// Where nozzle `nozzle` is when the file says `at` with `tool` in use.

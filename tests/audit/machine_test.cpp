@@ -74,6 +74,8 @@ TEST(AuditMachine, WarnsWhereTheUsersWordContradictsThePlastic) {
 TEST(AuditMachine, AsksWhereNothingTells) {
   const GcodePrint print = read_gcode(two_blocks(0), "a.gcode");
   EXPECT_ERROR(audit_machine(print, {}), "--nozzle-offset 0x0,33x0");
+  const GcodePrint zeroes = read_gcode(two_blocks(0, "", "; extruder_offset = 0x0,0x0\n"), "a.gcode");
+  EXPECT_ERROR(audit_machine(zeroes, {}), "--nozzle-offset 0x0,33x0 --offsets-in firmware");
 }
 
 TEST(AuditMachine, AsksForAnOffsetOfEveryNozzle) {

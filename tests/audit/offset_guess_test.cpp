@@ -164,7 +164,8 @@ TEST(AuditMachine, FindsANozzleThatNobodySaysAnythingOf) {
 }
 
 TEST(AuditMachine, SaysForEveryNozzleWhatToType) {
-  EXPECT_ERROR(audit_machine(print_of({"0 1 2"}, {{0, 0}, {0, 0}, {0, 0}}), {}), "0x0,33x0,66x0 --offsets-in firmware");
+  EXPECT_ERROR(audit_machine(print_of({"0 1 2"}, {{0, 0}, {0, 0}, {0, 0}}), {}),
+               "--nozzle-offset 0x0,33x0,66x0 (and --offsets-in slicer");
 }
 
 }  // namespace
