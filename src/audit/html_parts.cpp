@@ -21,7 +21,7 @@ constexpr const char* style = R"(
     --notice: #3a3118; }
 }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 1080px; padding: 24px 16px 48px; background: var(--page); color: var(--ink);
+body { margin: 0 auto; max-width: 1240px; padding: 24px 16px 48px; background: var(--page); color: var(--ink);
   font: 15px/1.5 system-ui, "Segoe UI", Roboto, "Noto Sans", sans-serif; }
 body.several { max-width: 1800px; }
 h1 { font-size: 1.5rem; margin: 0 0 .2rem; overflow-wrap: anywhere; }
@@ -39,6 +39,9 @@ p { margin: .3rem 0 .8rem; }
 .notice ul { margin: .2rem 0; padding-left: 1.2rem; }
 .files { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 28px; }
 .files article { min-width: 0; border-top: 3px solid var(--line); padding-top: 1rem; }
+.layers { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 460px), 1fr)); gap: 14px;
+  align-items: start; }
+.layers figure { margin: 0; }
 .sides { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 160px), 1fr)); gap: 12px; }
 figure { margin: 0 0 14px; background: #fff; color: #444; border: 1px solid var(--line); border-radius: 10px;
   padding: 8px; text-align: center; }

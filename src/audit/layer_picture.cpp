@@ -13,7 +13,7 @@ namespace {
 
 constexpr double title_height = 46, legend_height = 62, border = 14;
 constexpr double text_height = 13;
-constexpr double highest_plot = 900, lowest_plot = 160;
+constexpr double lowest_plot = 160;
 constexpr double width_step_mm = 0.02;
 
 enum class Plastic { auxiliary, inner, outer };
@@ -141,7 +141,7 @@ struct Sheet {
 Sheet sheet_for(const Box<Vec2>& view_mm, const LayerPicture& options) {
   Sheet sheet{.view_mm = view_mm, .size = {}, .frame = {}, .scale = 1};
   const double width = options.width_px - 2 * border;
-  sheet.scale = std::min(width / view_mm.size().x, highest_plot / view_mm.size().y);
+  sheet.scale = std::min(width / view_mm.size().x, width / view_mm.size().y);
   const double height = std::max(lowest_plot, view_mm.size().y * sheet.scale);
   const double below = options.legend ? legend_height : border;
   sheet.size = {options.width_px, std::ceil(title_height + height + below)};

@@ -16,6 +16,7 @@
 namespace cleancolor {
 namespace {
 
+constexpr double layer_width_px = 640;        // two of them fit beside each other
 constexpr std::size_t layers_of_several = 2;  // drawn of each file, so that the page stays small
 
 std::string unit_text(std::string_view unit) {
@@ -92,12 +93,13 @@ std::string height_plot(const AuditedFile& file, const ReportOptions& options) {
 std::string layer_pictures(const AuditedFile& file, const ReportOptions& options) {
   const auto layers = worst_layers(shown(file, options), options.worst_layers);
   if (layers.empty()) return "";
-  std::string html = "<h2>Worst layers</h2>\n";
+  std::string html = "<h2>Worst layers</h2>\n<div class=\"layers\">\n";
   for (const std::uint32_t layer : layers)
     html += fmt::format("<figure>{}</figure>\n",
-                        html_picture(layer_picture(*file.print, *file.machine, *file.result, options.scenario, layer),
+                        html_picture(layer_picture(*file.print, *file.machine, *file.result, options.scenario, layer,
+                                                   {.width_px = layer_width_px}),
                                      fmt::format("layer {} from above", layer + 1)));
-  return html;
+  return html + "</div>\n";
 }
 
 std::string places(const AuditedFile& file, const ReportOptions& options) {

@@ -3,9 +3,11 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <numbers>
 
 #include "base/error.hpp"
@@ -46,6 +48,26 @@ void trace(cairo_t* c, std::span<const Vec2> points, bool closed) {
   cairo_new_sub_path(c);
   for (const Vec2 p : points) cairo_line_to(c, p.x, p.y);
   if (closed) cairo_close_path(c);
+}
+
+/// Cairo numbers the surfaces of the whole program; here they are numbered as they come, so that a picture does not
+/// depend on what was drawn before it.
+std::string with_own_numbers(const std::string& svg) {
+  constexpr std::string_view name = "surface";
+  std::map<std::string, std::size_t> numbers;
+  std::string text;
+  for (std::size_t at = 0; at < svg.size();) {
+    const std::size_t found = std::min(svg.size(), svg.find(name, at));
+    text += svg.substr(at, found - at);
+    if (found == svg.size()) break;
+    const std::size_t begin = found + name.size();
+    const std::size_t end = std::min(svg.size(), svg.find_first_not_of("0123456789", begin));
+    const auto [number, is_new] = numbers.try_emplace(svg.substr(begin, end - begin), numbers.size());
+    text += name;
+    text += std::to_string(number->second);
+    at = end;
+  }
+  return text;
 }
 
 }  // namespace
@@ -133,7 +155,7 @@ std::string Canvas::svg() const {
   picture_->play(surface.get());
   cairo_surface_finish(surface.get());
   must_succeed(cairo_surface_status(surface.get()));
-  return bytes;
+  return with_own_numbers(bytes);
 }
 
 std::string png(int width, int height, std::span<const std::uint8_t> rgba) {
