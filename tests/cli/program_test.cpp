@@ -161,8 +161,8 @@ TEST(Program, ReportsFilesItCannotWriteWithCode3) {
 TEST(Program, InterruptedLeavesNoFileAndCode130) {
   const TestFolder folder;
   folder.file("a.stl", box({0, 0, 0}, {150, 150, 150}));
-  const Outcome r =
-      run(folder, "slice a.stl --set layer_height=0.03 --set fill_density=70%", "timeout --foreground --preserve-status -s INT 0.7");
+  const Outcome r = run(folder, "slice a.stl --set layer_height=0.03 --set fill_density=70%",
+                        "timeout --foreground --preserve-status -s INT 0.7");
   EXPECT_EQ(r.exit_code, exit_interrupted) << r.out << r.err;
   EXPECT_NE(r.err.find("interrupted"), r.err.npos);
   for (const auto& entry : std::filesystem::directory_iterator(folder.path("."))) {
