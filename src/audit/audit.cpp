@@ -1,5 +1,7 @@
 #include "audit/audit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -141,8 +143,14 @@ AuditResult Auditor::result() {
   if (cut_short_ > 0) {
     result.warnings.push_back(
         "nozzles pass over so many roads in so few moves that some of them were left out: the figures are too low");
-    progress_.warn(result.warnings.back());
   }
+  if (std::ranges::all_of(print_.moves, [](const GcodeMove& m) { return m.role == Role::unknown; })) {
+    result.warnings.push_back(
+        "the file does not say what is wall, infill or skirt: walls are told by the geometry, and skirts and towers "
+        "count as "
+        "part of the print; let the slicer write verbose G-code");
+  }
+  for (const std::string& warning : result.warnings) progress_.warn(fmt::format("{}: {}", print_.name, warning));
   result.time = time_;
   result.visibility = visibility_;
   return result;
