@@ -53,8 +53,10 @@ bool is_key(std::string_view key) {
 
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const char line_end = text.find('\n') == text.npos ? '\r' : '\n';
   while (!text.empty()) {
-    const std::size_t stop = text.find('\n');
+    const std::size_t stop = text.find(line_end);
     lines.push_back(trimmed(text.substr(0, stop)));
     text.remove_prefix(stop == text.npos ? text.size() : stop + 1);
   }
