@@ -32,7 +32,7 @@ p { margin: .3rem 0 .8rem; }
 .verdict { font-size: 1.05rem; border-left: 4px solid var(--accent); padding-left: .8rem; margin: 1rem 0; }
 .cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 12px; margin: 1rem 0; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: 12px 14px; }
-.card b { display: block; font-size: 1.5rem; line-height: 1.25; font-variant-numeric: tabular-nums; }
+.card b { display: block; font-size: 1.4rem; line-height: 1.3; white-space: nowrap; font-variant-numeric: tabular-nums; }
 .card b small { font-size: .85rem; font-weight: 400; }
 .card span { color: var(--pale); font-size: .85rem; display: block; }
 .notice { background: var(--notice); border-radius: 10px; padding: 10px 14px; margin: 1rem 0; overflow-wrap: anywhere; }
@@ -42,7 +42,10 @@ p { margin: .3rem 0 .8rem; }
 .layers { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 460px), 1fr)); gap: 14px;
   align-items: start; }
 .layers figure { margin: 0; }
-.sides { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 160px), 1fr)); gap: 12px; }
+.sides { display: grid; grid-template-columns: repeat(4, 1fr); gap: 12px; }
+.files .sides { grid-template-columns: repeat(2, 1fr); }
+.sides figure { margin: 0; }
+@media (max-width: 640px) { .sides { grid-template-columns: repeat(2, 1fr); } }
 figure { margin: 0 0 14px; background: #fff; color: #444; border: 1px solid var(--line); border-radius: 10px;
   padding: 8px; text-align: center; }
 figure img { max-width: 100%; height: auto; display: block; margin: 0 auto; }
@@ -50,7 +53,9 @@ figcaption { font-size: .85rem; }
 .scroll { overflow-x: auto; background: var(--card); border: 1px solid var(--line); border-radius: 10px; }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; }
 th, td { padding: 5px 12px; text-align: right; border-top: 1px solid var(--line); font-variant-numeric: tabular-nums;
-  vertical-align: top; }
+  vertical-align: top; white-space: nowrap; }
+td:first-child, td.left { white-space: normal; }
+td:first-child { min-width: 10.5em; }
 tr:first-child > * { border-top: 0; }
 th { font-weight: 600; color: var(--pale); }
 th:first-child, td:first-child, .left { text-align: left; }

@@ -16,6 +16,10 @@ constexpr double text_height = 13;
 constexpr double lowest_plot = 160;
 constexpr double width_step_mm = 0.02;
 
+// What no real print reaches: a bound on the memory of the picture.
+constexpr double most_dashed_px = 2e6;
+constexpr std::size_t most_places = 20'000;
+
 enum class Plastic { auxiliary, inner, outer };
 
 /// Roads that follow each other without a gap.
@@ -169,13 +173,15 @@ class Painter {
   }
 
   void ways(const std::vector<Way>& all) {
+    double dashed_left_px = most_dashed_px;
     for (const Way& way : all) {
       std::vector<Vec2> points;
       for (const Vec2 p : way.points_mm) points.push_back(sheet_.at(p));
       Colour colour = line_colour(machine_, way.nozzle);
       colour.a = way.travel ? 0.8 : 0.5;
       for (const auto& piece : clipped(points, sheet_.frame)) {
-        if (way.travel)
+        if (way.travel) dashed_left_px -= length(piece);
+        if (way.travel && dashed_left_px > 0)
           draw_dashed(canvas_, piece, 1, colour);
         else
           canvas_.line(piece, 0.9, colour);
@@ -206,6 +212,12 @@ class Painter {
  private:
   Colour colour_of(std::size_t nozzle) const {
     return nozzle < machine_.nozzles.size() ? colour(machine_.nozzles[nozzle].rgb) : pale_ink;
+  }
+
+  static double length(std::span<const Vec2> points) {
+    double sum = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) sum += distance(points[i - 1], points[i]);
+    return sum;
   }
 
   /// 1 mm3 is a disc of 24 pixels radius, whatever the layer's size: pictures of layers compare.
@@ -300,6 +312,7 @@ std::vector<const Place*> places_of(const ScenarioResult& scenario, std::uint32_
   for (const Place& p : scenario.places)
     if (p.layer == layer) places.push_back(&p);
   std::ranges::stable_sort(places, [](const Place* a, const Place* b) { return a->mm3 > b->mm3; });
+  places.resize(std::min(places.size(), most_places));
   return places;
 }
 

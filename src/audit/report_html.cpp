@@ -16,7 +16,15 @@
 namespace cleancolor {
 namespace {
 
-constexpr double layer_width_px = 640;        // two of them fit beside each other
+constexpr double layer_width_px = 640;  // two of them fit beside each other
+
+/// How wide pictures are drawn that stand alone, or in the column of a file.
+struct PictureWidths {
+  int side_px = 420;
+  double plot_px = 900;
+};
+constexpr PictureWidths of_one = {}, of_several = {.side_px = 260, .plot_px = 600};
+
 constexpr std::size_t layers_of_several = 2;  // drawn of each file, so that the page stays small
 
 std::string unit_text(std::string_view unit) {
@@ -73,21 +81,21 @@ std::string warnings(const AuditedFile& file) {
   return html + "</ul></div>\n";
 }
 
-std::string side_pictures(const AuditedFile& file, const ReportOptions& options) {
+std::string side_pictures(const AuditedFile& file, const ReportOptions& options, int width_px) {
   std::string html =
       "<h2>From four sides</h2>\n<p class=\"pale\">Predicted smears in the colour of the nozzle that "
       "leaves them; holes are dark.</p>\n<div class=\"sides\">\n";
-  for (const Side& side : sides(*file.print, *file.machine, *file.result, options.scenario))
+  for (const Side& side : sides(*file.print, *file.machine, *file.result, options.scenario, width_px))
     html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
                         html_png(side.png, "the print from the " + side.name), side.name);
   return html + "</div>\n";
 }
 
-std::string height_plot(const AuditedFile& file, const ReportOptions& options) {
+std::string height_plot(const AuditedFile& file, const ReportOptions& options, double width_px) {
   const auto curves = height_curves(*file.print, *file.machine, *file.result, options.scenario);
   if (curves.empty()) return "";
   return fmt::format("<h2>Over the height</h2>\n<figure>{}</figure>\n",
-                     html_picture(height_picture(curves), "volume of smears and holes in each layer"));
+                     html_picture(height_picture(curves, width_px), "volume of smears and holes in each layer"));
 }
 
 std::string layer_pictures(const AuditedFile& file, const ReportOptions& options) {
@@ -208,12 +216,14 @@ std::string unknown_commands(const GcodePrint& print) {
 }
 
 std::string file_part(const AuditedFile& file, const ReportOptions& options, bool alone) {
+  const PictureWidths widths = alone ? of_one : of_several;
   return fmt::format("<h1>{}</h1>\n<p class=\"pale\">{}; {} layers, {:.2f} mm high</p>\n", html_text(file.name),
                      html_text(producer_text(*file.print)), file.print->layers.size(),
                      file.print->layers.empty() ? 0 : file.print->layers.back().z_mm) +
-         verdicts(file, options) + cards(file, options) + warnings(file) + side_pictures(file, options) +
-         height_plot(file, options) + layer_pictures(file, options) + places(file, options) + figures(file, alone) +
-         filament(*file.result) + assumptions(file) + unknown_commands(*file.print);
+         verdicts(file, options) + cards(file, options) + warnings(file) +
+         side_pictures(file, options, widths.side_px) + height_plot(file, options, widths.plot_px) +
+         layer_pictures(file, options) + places(file, options) + figures(file, alone) + filament(*file.result) +
+         assumptions(file) + unknown_commands(*file.print);
 }
 
 std::string comparison_table(std::span<const AuditedFile> files) {
