@@ -1,5 +1,7 @@
 #include "audit/audit.hpp"
 
+#include "reader/read.hpp"
+
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -282,7 +284,22 @@ TEST(Audit, APrintThatIsOneKnotEndsSoonAndSaysThatItLeftSomethingOut) {
     d.lay({i % 2 ? 0. : 20., y});
   }
   const AuditResult result = audited(d);
-  EXPECT_EQ(result.warnings.size(), 1u);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings[0].find("left out"), std::string::npos);
+}
+
+TEST(Audit, SaysWhereTheFileDoesNotTellWallsFromSkirts) {
+  const auto warnings_of = [](const std::string& label) {
+    const GcodePrint print = read_gcode("M83\n" + label + "G1 X0 Y0 Z0.2 F1200\nG1 X10 Y0 E1\n", "a.gcode");
+    std::vector<std::string> told;
+    Progress progress;
+    progress.warn = [&](const std::string& warning) { told.push_back(warning); };
+    EXPECT_EQ(audit(print, audit_machine(print, {}), {}, progress).warnings.size(), told.size());
+    return told;
+  };
+  EXPECT_TRUE(warnings_of(";TYPE:External perimeter\n").empty());
+  ASSERT_EQ(warnings_of("").size(), 1u);
+  EXPECT_NE(warnings_of("")[0].find("does not say what is wall"), std::string::npos);
 }
 
 TEST(WorstPlaces, JoinsNeighboursOfOneKindAndSortsByAmount) {
