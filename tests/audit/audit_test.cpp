@@ -1,13 +1,12 @@
 #include "audit/audit.hpp"
 
-#include "reader/read.hpp"
-
 #include <gtest/gtest.h>
 
 #include <optional>
 #include <random>
 
 #include "drawn.hpp"
+#include "reader/read.hpp"
 #include "support_errors.hpp"
 
 using namespace cleancolor;
@@ -294,7 +293,8 @@ TEST(Audit, SaysWhereTheFileDoesNotTellWallsFromSkirts) {
     std::vector<std::string> told;
     Progress progress;
     progress.warn = [&](const std::string& warning) { told.push_back(warning); };
-    EXPECT_EQ(audit(print, audit_machine(print, {}), {}, progress).warnings.size(), told.size());
+    const AuditResult result = audit(print, audit_machine(print, {}), {}, progress);
+    EXPECT_EQ(result.warnings.size(), told.size());
     return told;
   };
   EXPECT_TRUE(warnings_of(";TYPE:External perimeter\n").empty());
