@@ -202,8 +202,11 @@ void set_ooze(std::vector<Scenario>& scenarios, std::string_view text) {
   for (const std::string_view value : split(a.value, ',')) values.push_back(ooze_value(key, value));
   if (values.size() > max_tools)
     throw Error(fmt::format("--ooze {}: {} values; at most {} nozzles are possible", a.name, values.size(), max_tools));
-  for (Scenario& scenario : scenarios)
-    if (scenario.name == name || (name == "worst" && scenario.name != "model")) set_ooze(scenario.ooze, key, values);
+  for (Scenario& scenario : scenarios) {
+    if (scenario.name != name && (name != "worst" || scenario.name == "model")) continue;
+    set_ooze(scenario.ooze, key, values);
+    scenario.help += fmt::format("; here with {}={}", a.name, a.value);
+  }
 }
 
 FigureLimit limit_of(const AuditCommand& command, std::string_view text) {

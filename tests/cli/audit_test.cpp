@@ -48,6 +48,7 @@ TEST(AuditArguments, SetOozeByNozzleAndScenario) {
       ASSERT_EQ(s.ooze.size(), 1u);
       EXPECT_EQ(s.ooze[0].elastic_time_s, 0.4);
       EXPECT_EQ(s.ooze[0].time_s, model_ooze().time_s);
+      EXPECT_TRUE(s.help.ends_with("; here with elastic_time=0.4")) << s.help;
     } else {  // worst and its variants, which differ in rules alone
       ASSERT_EQ(s.ooze.size(), 2u);
       EXPECT_EQ(s.ooze[0].volume_mm3, 2);
