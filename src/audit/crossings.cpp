@@ -102,12 +102,12 @@ LayerMoves layer_moves(const GcodePrint& print, const Timeline& time) {
     } else {
       ranges.push_back({i, i + 1});
     }
-    if (time.pushed_mm3[i] > 0 && !is_auxiliary(m.role)) part[m.layer] = 1;
+    if (time.pushed_mm3[i] > 0 && !is_auxiliary(m.role) && lays_plastic(print, i)) part[m.layer] = 1;
   }
   result.above.resize(layers);
   auto above = std::uint32_t(layers);
   for (std::size_t l = layers; l-- > 0;) {
-    result.above[l] = above;
+    result.above[l] = part[l] ? above : std::uint32_t(layers);
     if (part[l]) above = std::uint32_t(l);
   }
   return result;

@@ -33,7 +33,7 @@ struct LayerMoves {
     std::uint32_t first = 0, last = 0;
   };
   std::vector<std::vector<Range>> ranges;  // by layer, ascending
-  std::vector<std::uint32_t> above;        // the next layer above with plastic of the part; none: as many as layers
+  std::vector<std::uint32_t> above;        // the next layer of the part above one of it; else as many as layers
 };
 LayerMoves layer_moves(const GcodePrint& print, const Timeline& time);
 

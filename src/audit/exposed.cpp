@@ -6,7 +6,7 @@
 namespace cleancolor {
 namespace {
 
-constexpr double most_cells = 4e6;
+constexpr double most_cells = 4e6, least_cells = 3e5, cells_per_road = 5e3;  // few roads far apart get larger cells
 constexpr double widest_road_mm = 20;  // what is told wider is an error of the file
 constexpr double least_wipe_area_mm2 = 0.03;
 constexpr double place_spacing_mm = 1;  // where a road is asked whether it faces the outside
@@ -64,10 +64,11 @@ PartOutline::PartOutline(std::span<const LabelledRoad> roads) {
 
   // Two empty cells around the part, one of which the closing of gaps may take.
   constexpr int border = 2;
+  const double allowed = std::clamp(cells_per_road * double(roads.size()), least_cells, most_cells);
   for (;; cell_mm_ *= 1.05) {
     const double columns = std::ceil(box.size().x / cell_mm_) + 1 + 2 * border;
     const double rows = std::ceil(box.size().y / cell_mm_) + 1 + 2 * border;
-    if (columns * rows > most_cells) continue;
+    if (columns * rows > allowed) continue;
     columns_ = int(columns), rows_ = int(rows);
     break;
   }

@@ -16,6 +16,7 @@ constexpr int beside_cells = 2;
 constexpr std::size_t most_layers = 24;
 constexpr double most_cells = 2e7;                // of one colour in one layer; larger ones are left out
 constexpr std::int64_t most_points = 40'000'000;  // drawn in all; a real print has a tenth
+constexpr std::int64_t work_per_word = 8;         // of a mask and what lies beside it, in points
 constexpr int reach_cells = 320, across_cells = 4;
 constexpr std::size_t most_search_words = 40'000;  // of all layers of a search
 
@@ -115,6 +116,8 @@ Mask mask_of(const std::vector<Segment>& roads, Vec2 shift_mm, std::int64_t& poi
   mask.first = {low.x - beside_cells, low.y - beside_cells};
   mask.rows = high.y - low.y + 1 + 2 * beside_cells;
   mask.words = (high.x - low.x + 2 * beside_cells) / 64 + 1;
+  points_left -= std::int64_t(mask.rows) * mask.words * work_per_word;
+  if (points_left < 0) return {};
   mask.bits.assign(std::size_t(mask.rows) * std::size_t(mask.words), 0);
   for (const Segment& s : roads) {
     const int steps = int(distance(s.a_mm, s.b_mm) / (cell_mm / 2)) + 1;

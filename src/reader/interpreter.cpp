@@ -205,7 +205,7 @@ void Interpreter::arc(const GcodeLine& line) {
     fail("the centre of the arc is more than 10 m away; the file is damaged");
   const std::vector<ArcPoint> points = chords(way);
   if (points.empty()) return straight(line);
-  if (print_.moves.size() > 1'000'000 + 2 * print_.text->size()) fail("too many large arcs; the file is damaged");
+  if (print_.moves.size() > 1'000'000 + print_.text->size() / 2) fail("too many large arcs; the file is damaged");
 
   int feeds = tool_;
   const double filament = filament_mm(line, feeds);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/error.hpp"
@@ -186,8 +187,11 @@ void Interpreter::volumetric(const GcodeLine& line) {
   if (diameter < 0 || diameter > 10 || (diameter > 0 && diameter < 0.1))
     fail(fmt::format("a filament of {:g} mm; the file is damaged", diameter));
   filament_.volumetric(tool, diameter);
+  if (diameter <= 0) return;
+  // Lengths were made of volumes with these diameters: whoever makes volumes of lengths again must use the same.
   std::vector<double>& told = print_.facts.filament_diameter_mm;
-  if (diameter > 0 && told.size() <= std::size_t(tool)) told.resize(std::size_t(tool) + 1, diameter);
+  told.clear();
+  for (const double area_mm2 : filament_.area_mm2()) told.push_back(2 * std::sqrt(area_mm2 / std::numbers::pi));
 }
 
 /// M218 T1 X33, or G10 P1 X33: the nozzle is 33 mm to the right of the carriage's zero.
@@ -195,11 +199,12 @@ void Interpreter::firmware_offset(const GcodeLine& line) {
   const char letter = line.letter == 'M' ? 'T' : 'P';
   if (!line.has_value(letter) || !(line.has_value('X') || line.has_value('Y'))) return;
   const auto tool = std::size_t(checked_tool(line[letter]));
-  const Vec2 offset = Vec2{line.value_or('X', 0), line.value_or('Y', 0)} * unit_mm_;
-  if (std::max(std::abs(offset.x), std::abs(offset.y)) > 2000) fail("a nozzle more than 2 m away; the file is damaged");
   std::vector<Vec2>& offsets = print_.facts.firmware_offset_mm;
   offsets.resize(std::max(offsets.size(), tool + 1));
-  offsets[tool] = offset;
+  Vec2& offset = offsets[tool];  // what is not named stays
+  if (line.has_value('X')) offset.x = line['X'] * unit_mm_;
+  if (line.has_value('Y')) offset.y = line['Y'] * unit_mm_;
+  if (std::max(std::abs(offset.x), std::abs(offset.y)) > 2000) fail("a nozzle more than 2 m away; the file is damaged");
 }
 
 void Interpreter::event(GcodeEvent event) {

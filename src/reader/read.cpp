@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 
 #include "base/error.hpp"
 #include "model/text_file.hpp"
@@ -98,8 +100,10 @@ GcodePrint read_gcode(std::string text, const std::string& name, const Progress&
   print.name = name;
   print.text = std::make_shared<const std::string>(std::move(text));
   read_facts(*print.text, name, print.facts, print.warnings);
-  print.moves.reserve(most_moves(*print.text));
+  print.moves.reserve(std::min(most_moves(*print.text), print.text->size() / 8));
   const std::vector<double> filament_area_mm2 = read_lines(print, progress);
+  if (print.facts.volumetric_e && print.facts.filament_diameter_mm.empty())
+    print.facts.filament_diameter_mm = {2 * std::sqrt(filament_area_mm2.front() / std::numbers::pi)};
   if (!any_plastic(print)) throw Error(fmt::format("{}: no move lays plastic; is this G-code of a printer?", name));
   mark_start_code(print);
   assign_layers(print, filament_area_mm2);

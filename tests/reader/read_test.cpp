@@ -152,8 +152,19 @@ TEST(Reader, VolumetricEBecomesLength) {
   const double area = std::numbers::pi / 4 * 2.85 * 2.85;
   const GcodePrint print = read("M200 D2.85\nG1 X0 Y0 Z.2\nG1 X5 E10\nM200 D0\nG1 X6 E11\n");
   EXPECT_NEAR(net_mm(print), 10 / area + 1, 1e-9);
-  EXPECT_EQ(print.facts.filament_diameter_mm, std::vector<double>{2.85});
+  EXPECT_NEAR(print.facts.filament_diameter_mm.front(), 2.85, 1e-9);
   EXPECT_NEAR(net_mm(read(";FLAVOR:UltiGCode\n" + printed)), 2 / (std::numbers::pi / 4 * 1.75 * 1.75), 1e-9);
+}
+
+TEST(Reader, VolumesComeOutAsTheFileHasThemWhateverItsHeaderSays) {
+  const GcodePrint print = read("; filament_diameter = 1.75\nM200 D2.85\nG1 X0 Y0 Z.2\nG1 X5 E10\n");
+  const double d = print.facts.filament_diameter_mm.front();
+  EXPECT_NEAR(net_mm(print) * std::numbers::pi / 4 * d * d, 10, 1e-9);
+}
+
+TEST(Reader, AnOffsetOfTheFirmwareKeepsTheAxisThatIsNotNamed) {
+  const GcodePrint print = read("M218 T1 X33\nM218 T1 Y1\n" + printed);
+  EXPECT_EQ(print.facts.firmware_offset_mm, (std::vector<Vec2>{{0, 0}, {33, 1}}));
 }
 
 TEST(Reader, ToolWordsOfAllFirmwares) {
