@@ -87,8 +87,10 @@ TEST_F(ClientsTest, PrintrunSeesBothExtrudersLayersAndFilamentOfOurMarlin) {
     c.use_relative_e_distances = relative;
     c.remaining_times = true;
     const Written w = written(c, two_cubes(20, false));
-    const Answer a = asked(python + " -W ignore -c \"from printrun import gcoder; g = gcoder.GCode(open('" + file(w) +
-                           "')); print(g.layers_count, *g.filament_length_multi[:2])\"");
+    const Answer a = asked(
+        python +
+        " -W ignore -c \"import logging; logging.disable(); from printrun import gcoder; g = gcoder.GCode(open('" +
+        file(w) + "')); print(g.layers_count, *g.filament_length_multi[:2])\"");
     ASSERT_EQ(a.status, 0) << a.text;
     int layers = 0;
     double fed[2] = {0, 0};
