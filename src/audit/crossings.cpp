@@ -2,26 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace cleancolor {
 namespace {
 
-constexpr double thinnest_road_mm = 0.05;
+constexpr float thinnest_road_mm = 0.05F;
 constexpr std::uint64_t work_per_move = 2000, least_work = 1'000'000;
 constexpr std::uint64_t work_of_visibility = 16;  // roads looked at in the time of one look at the visibility
-
-double width_mm(const GcodeMove& move, double area_mm2) {
-  if (move.width_mm > 0) return double(move.width_mm);
-  const double h = move.height_mm > 0 ? double(move.height_mm) : 0.2;
-  return std::max(thinnest_road_mm, area_mm2 / h + h * (1 - std::numbers::pi / 4));
-}
-
-Vec2 nearest_on(const SurfaceRoad& road, Vec2 p) {
-  const Vec2 d = road.b_mm - road.a_mm;
-  const double l2 = length_squared(d);
-  return l2 > 0 ? lerp(road.a_mm, road.b_mm, std::clamp(dot(p - road.a_mm, d) / l2, 0., 1.)) : road.a_mm;
-}
 
 /// Finds the crossings of one tip after the other.
 class Tips {
@@ -80,8 +67,7 @@ void Tips::add(const Drive& drive, int nozzle, const SurfacePiece& piece) {
     c.begin = i == 0 ? piece.begin : c.end;
     c.end = at(1);
     const Vec2 tip = lerp(drive.from_mm, drive.to_mm, double(at(0.5))) + offset;
-    const Vec2 p = nearest_on(road, tip);
-    c.visibility = float(input_.visibility.at({p.x, p.y, plastic.z_mm}));
+    c.visibility = float(input_.visibility.at({tip.x, tip.y, plastic.z_mm}, road.a_mm, road.b_mm));
     all.push_back(c);
   }
   scratch_.work += work_of_visibility * std::uint64_t(steps);
@@ -121,8 +107,8 @@ LayerRoads layer_roads(const GcodePrint& print, const AuditMachine& machine, con
       if (!d.lays) continue;
       const Vec2 offset = nozzle_offset_mm(machine, d.feeds);
       const double area_mm2 = d.pushed_mm3 / distance(d.from_mm, d.to_mm);
-      layer.roads.push_back({d.from_mm + offset, d.to_mm + offset, float(width_mm(print.moves[d.move], area_mm2)),
-                             float(area_mm2), d.role});
+      const float width_mm = std::max(thinnest_road_mm, print.moves[d.move].width_mm);
+      layer.roads.push_back({d.from_mm + offset, d.to_mm + offset, width_mm, float(area_mm2), d.role});
       layer.moves.push_back(d.move);
       layer.nozzles.push_back(d.feeds);
     }

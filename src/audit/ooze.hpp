@@ -77,7 +77,7 @@ class NozzleState {
   /// clock of idling starts anew and what is carried goes with it.
   Pushed push(double mm3, double seconds, bool prints);
 
-  /// The filament is drawn back (mm3 > 0) or pushed forward again (< 0).
+  /// The filament is drawn back by so much; what is pushed forward again counts in push().  Requires: mm3 >= 0.
   void retract(double mm3);
 
   void set_target(double celsius);

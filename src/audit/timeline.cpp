@@ -19,15 +19,11 @@ Vec2 jump_mm(const AuditMachine& machine, const GcodeEvent& event, int old_tool)
   return nozzle_offset_mm(machine, old_tool) - nozzle_offset_mm(machine, event.tool);
 }
 
-bool same_xy(Vec3 a, Vec3 b) {
-  return a.x == b.x && a.y == b.y;
-}
-
 /// Where the carriage is after move i; before: where it was. A move that names neither X nor Y leaves it there, also
 /// where a change of tool has given its place another name.
 Vec2 carriage_after(const GcodePrint& print, const AuditMachine& machine, std::size_t i, Vec2 before) {
   const GcodeMove& move = print.moves[i];
-  if (i > 0 && move.known_start && same_xy(move.to_mm, print.moves[i - 1].to_mm)) return before;
+  if (i > 0 && move.known_start && !move.names_xy) return before;
   const Vec2 at{move.to_mm.x, move.to_mm.y};
   return machine.offsets_in == OffsetsIn::slicer ? at : at - nozzle_offset_mm(machine, move.tool);
 }

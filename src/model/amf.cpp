@@ -8,17 +8,13 @@
 
 #include "base/error.hpp"
 #include "model/limits.hpp"
+#include "model/text_scan.hpp"
 #include "model/transform.hpp"
 #include "model/xml.hpp"
 
 namespace cleancolor {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
 
 /// Metadata of this type, in any case: "name", "Name".
 std::string_view metadata(pugi::xml_node node, std::string_view type) {

@@ -11,18 +11,13 @@
 #include "model/ini_dialect.hpp"
 #include "model/options.hpp"
 #include "model/text_file.hpp"
+#include "model/text_scan.hpp"
 
 namespace cleancolor {
 namespace {
 
 // Enough for the configuration at the end of any G-code file; the file itself may be huge.
 constexpr std::uintmax_t gcode_tail_bytes = 4 * 1024 * 1024;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 template <class Visit>
 void for_each_line(std::string_view text, const Visit& visit) {

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "model/options.hpp"
+#include "model/text_scan.hpp"
 
 namespace cleancolor {
 namespace {
@@ -17,35 +18,19 @@ namespace {
   throw Error(fmt::format("{}{}: {}", where, option.name, reason));
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
-template <class T>
-std::optional<T> number(std::string_view text) {
-  text = trimmed(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
-  T value{};
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (fault != std::errc() || end != text.data() + text.size() || text.empty()) return std::nullopt;
-  return value;
-}
-
 // "20%" -> 0.2
 std::optional<double> share(std::string_view text) {
   text = trimmed(text);
   if (!text.ends_with('%')) return std::nullopt;
-  const auto value = number<double>(text.substr(0, text.size() - 1));
+  const auto value = number<double>(trimmed(text.substr(0, text.size() - 1)));
   return value ? std::optional(*value / 100) : std::nullopt;
 }
 
 std::optional<Vec2> point(std::string_view text) {
   const std::size_t x = text.find('x');
   if (x == text.npos) return std::nullopt;
-  const auto a = number<double>(text.substr(0, x));
-  const auto b = number<double>(text.substr(x + 1));
+  const auto a = number<double>(trimmed(text.substr(0, x)));
+  const auto b = number<double>(trimmed(text.substr(x + 1)));
   return a && b ? std::optional(Vec2{*a, *b}) : std::nullopt;
 }
 

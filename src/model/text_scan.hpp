@@ -39,6 +39,13 @@ inline bool is_keyword(std::string_view word, std::string_view keyword) {
   return true;
 }
 
+/// The text without the blanks and line ends around it.
+inline std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) {}

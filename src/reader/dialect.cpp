@@ -143,12 +143,6 @@ std::optional<Role> role_of(std::span<const RoleName> names, std::string_view na
   return found == names.end() ? std::nullopt : std::optional(found->role);
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
-  return text;
-}
-
 /// "'Perimeter Path', 0.7 [feed mm/s]"; nothing for other words in quotes ("'Destring Prime'"): the path goes on.
 std::optional<Role> kisslicer_role(std::string_view text) {
   constexpr std::string_view ending = " Path";

@@ -39,13 +39,6 @@ constexpr std::array<Producer, 17> producers = {{
     {"ideaMaker", Dialect::ideamaker, "ideaMaker"},
 }};
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 bool is_key(std::string_view key) {
   return !key.empty() && key.size() < 100 &&
          std::ranges::all_of(key, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });

@@ -186,6 +186,7 @@ void Interpreter::straight(const GcodeLine& line) {
   const Vec3 to = {target_mm(line, 0), target_mm(line, 1), target_mm(line, 2)};
   arrive(line);
   move_to(to, filament, feeds);
+  print_.moves.back().names_xy = line.has('X') || line.has('Y');
 }
 
 void Interpreter::arc(const GcodeLine& line) {
@@ -241,6 +242,7 @@ void Interpreter::move_to(Vec3 to, double filament, int feeds, bool is_arc) {
                           .feeds = std::uint8_t(feeds),
                           .role = stale ? Role::custom : said.role,
                           .known_start = end_known_,
+                          .names_xy = is_arc,
                           .arc = is_arc});
   axes_[0].at_mm = to.x, axes_[1].at_mm = to.y, axes_[2].at_mm = to.z;
   end_known_ = axes_[0].known && axes_[1].known;

@@ -8,6 +8,7 @@ namespace cleancolor {
 namespace {
 
 constexpr double same_height_mm = 0.02;
+constexpr double rounding_mm = 1e-9;
 constexpr double usual_step_mm = 0.2;
 constexpr double flat_share = 0.25;
 constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -63,7 +64,7 @@ Heights heights_of(const GcodePrint& print) {
 std::vector<double> joined(const std::vector<double>& sorted) {
   std::vector<double> heights;
   for (const double z : sorted)
-    if (heights.empty() || z - heights.back() > same_height_mm) heights.push_back(z);
+    if (heights.empty() || z - heights.back() > same_height_mm + rounding_mm) heights.push_back(z);
   return heights;
 }
 
@@ -94,7 +95,7 @@ std::vector<double> with_bands(const std::vector<double>& flat, const std::vecto
 }
 
 std::uint32_t layer_at(const std::vector<double>& heights, double z) {
-  const auto above = std::ranges::lower_bound(heights, z - same_height_mm);
+  const auto above = std::ranges::lower_bound(heights, z - same_height_mm - rounding_mm);
   const std::ptrdiff_t index = std::min(above - heights.begin(), std::ptrdiff_t(heights.size()) - 1);
   return std::uint32_t(index);
 }

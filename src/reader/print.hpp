@@ -54,6 +54,7 @@ struct GcodeMove {
   std::uint8_t feeds = 0;     // whose filament moves; differs from tool only in odd start codes
   Role role = Role::unknown;  // of the plastic laid; of a travel: what the file was printing
   bool known_start = true;    // false: where the move before ended is not known (homing), so it draws no line
+  bool names_xy = false;      // its line tells X or Y, be it where the tool is already
   bool arc = false;           // a chord of G2 or G3; all chords of one arc have the same line
 };
 

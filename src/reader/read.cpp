@@ -51,7 +51,7 @@ std::size_t most_moves(std::string_view text) {
   return count;
 }
 
-/// Cross-section of each tool's filament.
+/// Reads all lines into the print. Returns the cross-section of each tool's filament.
 std::vector<double> read_lines(GcodePrint& print, const Progress& progress) {
   const std::string_view text = *print.text;
   const char line_end = text.find('\n') == text.npos ? '\r' : '\n';

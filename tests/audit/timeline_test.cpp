@@ -147,6 +147,13 @@ TEST(Timeline, WhereTheFirmwareDoesNotJumpAMoveOfZAloneGoesNowhere) {
   EXPECT_EQ(all[4].to_mm, (Vec2{5 - 33, 6 - 5}));
 }
 
+TEST(Timeline, WhereTheFirmwareDoesNotJumpTheNewNozzleComesToThePlaceOfTheOld) {
+  const AuditMachine machine = drawn_machine(two, OffsetsIn::firmware);
+  const auto all = all_drives(print_of("G1 X5 Y5\nT1\nG1 X5 Y5\n"), machine);
+  EXPECT_EQ(all[2].from_mm, (Vec2{5, 5}));
+  EXPECT_EQ(all[2].to_mm, (Vec2{5 - 33, 5 - 5}));
+}
+
 TEST(Timeline, ABareToolChangeOfMarlinJumps) {
   const AuditMachine machine = drawn_machine(two, OffsetsIn::firmware);
   const GcodePrint print = print_of("G1 X5 Y5\nT1\nG1 X5 Y6\n", true);
