@@ -46,10 +46,12 @@ def kept(name, slicer, variant):
 
 
 def slice_with_peer(name, slicer, variant, output):
-    log = subprocess.run(["bash", PEERS / f"slice-{slicer}.sh", *models.stl_pair(name), output, variant],
+    unfinished = output.with_name("unfinished-" + output.name)  # an interrupted run leaves nothing that looks whole
+    log = subprocess.run(["bash", PEERS / f"slice-{slicer}.sh", *models.stl_pair(name), unfinished, variant],
                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if log.returncode != 0 or not output.exists():
+    if log.returncode != 0 or not unfinished.exists():
         raise RuntimeError(f"{slicer} {variant} does not slice {name}:\n{log.stdout[-1500:]}")
+    unfinished.rename(output)
 
 
 def slice_with_ours(program, name, output):
@@ -100,22 +102,31 @@ def table(name, rows):
     return "\n".join(lines) + "\n"
 
 
+def part_percent(rows, k):
+    """By how much more plastic the part of row k takes than PrusaSlicer's plain one."""
+    return 100 * (filament_mm3(rows[k][1], "part") / filament_mm3(rows[0][1], "part") - 1)
+
+
+def compares(name, rows, k):
+    """Whether row k prints the same part as PrusaSlicer does, so that its figures compare."""
+    return abs(part_percent(rows, k)) <= PART_PERCENT.get(name, 3.0)
+
+
 def different_parts(name, rows):
-    """Sentences about files whose part differs too much from PrusaSlicer's plain one to be compared."""
-    reference = filament_mm3(rows[0][1], "part")
-    allowed = PART_PERCENT.get(name, 3.0)
-    for (_, _, title), judged in rows:
-        percent = 100 * (filament_mm3(judged, "part") / reference - 1)
-        if abs(percent) > allowed:
-            yield f"{name}: the part of {title.strip('*')} takes {percent:+.1f} % plastic"
+    """Sentences about files whose part differs too much to be compared."""
+    for k, ((_, _, title), _) in enumerate(rows):
+        if not compares(name, rows, k):
+            yield f"{name}: the part of {title.strip('*')} takes {part_percent(rows, k):+.1f} % plastic"
 
 
 def plots(results, folder):
-    """Two pictures of all models: smear and holes of every slicer, and both against time, as shares of PrusaSlicer's."""
+    """Two pictures of all models: smear and holes of every slicer, and both against time, as shares of PrusaSlicer's.
+    Where another part was printed, the bars are hatched and the points left out."""
     import matplotlib
     matplotlib.use("Agg")
     matplotlib.rcParams.update({"svg.hashsalt": "cleancolor", "svg.fonttype": "none", "font.size": 9})
     from matplotlib import pyplot
+    from matplotlib.patches import Patch
 
     titles = [title.strip("*") for _, _, title in COMPARED]
     palette = ["#56B4E9", "#0072B2", "#00528A", "#8CC7E8", "#E69F00", "#D55E00", "#A04000", "#009E73"]
@@ -123,14 +134,16 @@ def plots(results, folder):
     for axis, (key, label, _) in zip(axes, FIGURES):
         for k, title in enumerate(titles):
             places = [m + (k - len(titles) / 2 + 0.5) * 0.1 for m in range(len(results))]
-            axis.bar(places, [figure(rows[k][1], key) for rows in results.values()], 0.1, color=palette[k],
-                     label=title if axis is axes[0] else None)
+            bars = axis.bar(places, [figure(rows[k][1], key) for rows in results.values()], 0.1, color=palette[k])
+            for bar, (name, rows) in zip(bars, results.items()):
+                if not compares(name, rows, k):
+                    bar.set(hatch="//////", edgecolor="white", linewidth=0)
         axis.set_ylabel(f"{label}, worst case")
         axis.set_yscale("symlog", linthresh=1)
         axis.grid(axis="y", alpha=0.3)
         axis.set_ylim(bottom=0)
     axes[1].set_xticks(range(len(results)), results.keys())
-    axes[0].legend(ncol=4, fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
+    axes[0].legend(handles=[Patch(color=c, label=t) for c, t in zip(palette, titles)], ncol=4, fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
     plot.savefig(folder / "quality-figures.svg", metadata={"Date": None})
     pyplot.close(plot)
 
@@ -142,10 +155,9 @@ def plots(results, folder):
         return figure(judged, "smear_volume") + figure(judged, "hole_volume")
 
     for k, title in enumerate(titles):
-        plain = [rows[0][1] for rows in results.values()]
-        own = [rows[k][1] for rows in results.values()]
-        axis.scatter([100 * (minutes(j) / minutes(p) - 1) for j, p in zip(own, plain)],
-                     [100 * dirt(j) / dirt(p) for j, p in zip(own, plain)], s=28, color=palette[k], label=title)
+        pairs = [(rows[k][1], rows[0][1]) for name, rows in results.items() if compares(name, rows, k)]
+        axis.scatter([100 * (minutes(own) / minutes(plain) - 1) for own, plain in pairs],
+                     [100 * dirt(own) / dirt(plain) for own, plain in pairs], s=28, color=palette[k], label=title)
     axis.set_xlabel("print time, % over PrusaSlicer's plain print of the same model")
     axis.set_ylabel("smear + holes, worst case, % of its")
     axis.set_yscale("log")
@@ -162,7 +174,8 @@ def write_markdown(results, notes):
     text = (
         "![Smear and holes by model and slicer](pictures/quality-figures.svg)\n\n"
         "![Smear and holes against print time](pictures/quality-time.svg)\n\n" + tables + "\n"
-        + ("Parts that differ by more than 3 % (rose: 8 %) from PrusaSlicer's, so that their figures compare less well:\n"
+        + ("Parts that differ by more than 3 % (rose: 8 %) from PrusaSlicer's, so that their figures compare less well; "
+           "hatched in the first picture, not in the second:\n"
            + "".join(f"\n* {note}" for note in notes) + "\n" if notes else ""))
     replace_between_markers(models.ROOT / "docs" / "benchmarks.md", "scripts/bench quality --write", text)
 

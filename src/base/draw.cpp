@@ -79,6 +79,12 @@ struct Canvas::Picture {
   Surface recording;
   Context context;
 
+  Picture(double width, double height, Surface surface, Context c)
+      : width_px(width), height_px(height), recording(std::move(surface)), context(std::move(c)) {}
+  Picture(const Picture&) = delete;
+  /// Cairo never lets go of a recording that it wrote as SVG; emptied at least it can be.
+  ~Picture() { cairo_surface_finish(recording.get()); }
+
   void play(cairo_surface_t* surface) const {
     const Context c(cairo_create(surface));
     cairo_set_source_surface(c.get(), recording.get(), 0, 0);
@@ -99,7 +105,7 @@ Canvas::Canvas(Box<Vec2> view_mm, double pixels_per_mm) {
   cairo_translate(context.get(), -view_mm.min.x, -view_mm.max.y);
   cairo_set_line_cap(context.get(), CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(context.get(), CAIRO_LINE_JOIN_ROUND);
-  picture_.reset(new Picture{extents.width, extents.height, std::move(recording), std::move(context)});
+  picture_.reset(new Picture(extents.width, extents.height, std::move(recording), std::move(context)));
 }
 
 Canvas::~Canvas() = default;

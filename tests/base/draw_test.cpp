@@ -1,8 +1,10 @@
 #include "base/draw.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
+#include <fstream>
 
 #include "base/base64.hpp"
 #include "base/render.hpp"
@@ -65,6 +67,28 @@ TEST(Canvas, DrawsToSvgWhatItDrawsToPng) {
   EXPECT_NE(svg.find("<svg"), std::string::npos);
   EXPECT_NE(svg.find("width=\"40"), std::string::npos);
   EXPECT_NE(svg.find("rgb(100%"), std::string::npos);
+}
+
+TEST(Canvas, KeepsNothingOfAPictureThatIsGone) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers keep freed memory";
+#endif
+  const auto used_mb = [] {
+    std::ifstream statm("/proc/self/statm");
+    long all_pages = 0, resident_pages = 0;
+    statm >> all_pages >> resident_pages;
+    return resident_pages * sysconf(_SC_PAGESIZE) / 1'000'000;
+  };
+  const auto draw = [] {
+    Canvas canvas({{0, 0}, {100, 100}}, 4);
+    for (int i = 0; i < 3000; ++i)  // some 3 MB of recording
+      canvas.line(std::vector<Vec2>{{i * 0.01, 0}, {50, i * 0.02}}, 0.1, colour(0), false);
+    return canvas.svg().size();
+  };
+  const std::size_t size = draw();
+  const long before_mb = used_mb();
+  for (int i = 0; i < 30; ++i) EXPECT_EQ(draw(), size);
+  EXPECT_LT(used_mb() - before_mb, 30);
 }
 
 TEST(RenderedPng, AnEmptySceneIsTheBackgroundAlone) {

@@ -106,7 +106,7 @@ TEST(Options, RefuseWhatCannotBeReadOrIsOutOfRangeAndSayWhere) {
   EXPECT_ERROR(set_option(config, "layer_height", "thick", where), "base.ini:3: layer_height: 'thick' is not a number");
   EXPECT_ERROR(set_option(config, "layer_height", "0.2mm", where), "base.ini:3: layer_height: '0.2mm' is not a number");
   EXPECT_ERROR(set_option(config, "layer_height", "", where), "base.ini:3: layer_height: '' is not a number");
-  EXPECT_ERROR(set_option(config, "layer_height", "nan", where), "layer_height: is not a finite number");
+  EXPECT_ERROR(set_option(config, "layer_height", "nan", where), "layer_height: 'nan' is not a number");
   EXPECT_ERROR(set_option(config, "layer_height", "9", where),
                "base.ini:3: layer_height: 9 is out of range; it must lie between 0.01 and 5 mm");
   EXPECT_ERROR(set_option(config, "perimeters", "2.5", where), "perimeters: '2.5' is not a whole number");
