@@ -1,0 +1,1 @@
+#include "orient/azimuth.hpp"

@@ -1,0 +1,1 @@
+#include "shield/rampart.hpp"
