@@ -19,6 +19,7 @@ constexpr const char* description =
     "  cleancolor slice ocean.stl land.stl -o globe.gcode --printer replicator-dual\n"
     "  cleancolor slice robot.3mf --printer my-printer.toml --set layer_height=0.2\n"
     "  cleancolor slice a.stl b.stl -o ab.gcode --load my-prusaslicer.ini\n"
+    "  cleancolor azimuth ocean.stl land.stl --printer replicator-dual -o azimuth.svg\n"
     "  cleancolor audit print.gcode --printer replicator-dual\n"
     "  cleancolor profiles\n"
     "  cleancolor options infill\n";
@@ -52,6 +53,8 @@ Command parse_command_line(std::vector<std::string> arguments) {
 
   SliceTexts slice_texts;
   CLI::App* slice = add_slice(app, slice_texts);
+  SliceTexts azimuth_texts;
+  CLI::App* azimuth = add_azimuth(app, azimuth_texts);
   AuditTexts audit_texts;
   CLI::App* audit = add_audit(app, audit_texts);
 
@@ -73,17 +76,20 @@ Command parse_command_line(std::vector<std::string> arguments) {
     return TextCommand{std::string(call.what()) + "\n"};
   } catch (const CLI::CallForHelp&) {
     const CLI::App* asked = &app;
-    for (const CLI::App* sub : {slice, audit, list, show, options}) asked = sub->parsed() ? sub : asked;
+    for (const CLI::App* sub : {slice, azimuth, audit, list, show, options}) asked = sub->parsed() ? sub : asked;
     if (asked == slice) slice->description(slice_description);
+    if (asked == azimuth) azimuth->description(azimuth_description);
     if (asked == audit) audit->description(audit_description);
     return TextCommand{asked->help(asked == &app ? "" : asked == show ? "cleancolor profiles" : "cleancolor")};
   } catch (const CLI::ParseError& fault) {
     throw Error(fmt::format("{}; see cleancolor {}--help", fault.what(),
-                            slice->parsed()   ? "slice "
-                            : audit->parsed() ? "audit "
-                                              : ""));
+                            slice->parsed()     ? "slice "
+                            : azimuth->parsed() ? "azimuth "
+                            : audit->parsed()   ? "audit "
+                                                : ""));
   }
   if (slice->parsed()) return slice_command(*slice, std::move(slice_texts));
+  if (azimuth->parsed()) return azimuth_command(*azimuth, std::move(azimuth_texts));
   if (audit->parsed()) return audit_command(std::move(audit_texts));
   if (list->parsed()) return profiles;
   return reference;

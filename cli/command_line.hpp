@@ -30,12 +30,19 @@ struct SliceCommand {
   std::vector<ModelFile> files;                  // at least one
   std::map<std::uint32_t, int> extruder_of_rgb;  // 0xRRGGBB -> 0-based
   Placement placement;
+  std::optional<double> azimuth_deg;  // empty: auto
   Overlap overlap = Overlap::refuse;
   std::filesystem::path output;   // never empty
   std::filesystem::path preview;  // empty: none
   int threads = 0;
   bool quiet = false;
   bool json = false;
+};
+
+/// cleancolor azimuth
+struct AzimuthCommand {
+  SliceCommand slice;  // what would be sliced; output: an SVG picture, or empty
+  bool json = false;   // on standard output, instead of the table
 };
 
 /// --fail-over: a figure of a scenario must not be greater.
@@ -80,7 +87,7 @@ struct TextCommand {
   std::string text;
 };
 
-using Command = std::variant<SliceCommand, AuditCommand, ProfilesCommand, OptionsCommand, TextCommand>;
+using Command = std::variant<SliceCommand, AzimuthCommand, AuditCommand, ProfilesCommand, OptionsCommand, TextCommand>;
 
 /// arguments: without the program's name. Throws Error for anything that is not understood.
 Command parse_command_line(std::vector<std::string> arguments);

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "cli/audit.hpp"
+#include "cli/azimuth.hpp"
 #include "cli/command_line.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/profiles.hpp"
@@ -20,6 +21,8 @@ int run(const Command& command) {
   int code = exit_done;
   if (const auto* slice = std::get_if<SliceCommand>(&command)) {
     run(*slice, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
+  } else if (const auto* azimuth = std::get_if<AzimuthCommand>(&command)) {
+    run(*azimuth, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
   } else if (const auto* audit = std::get_if<AuditCommand>(&command)) {
     code = run(*audit, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
   } else if (const auto* profiles = std::get_if<ProfilesCommand>(&command)) {

@@ -9,11 +9,37 @@
 
 namespace cleancolor {
 
+namespace {
+
+std::string turn_text(const std::optional<int>& degrees) {
+  return degrees ? fmt::format("{} degrees", *degrees) : "none has room";
+}
+
+double at(const std::vector<double>& curve, int degrees) {
+  return curve[std::size_t((degrees + 360) % 360)];
+}
+
+std::string protection_table(const Protection& p) {
+  std::string text;
+  if (p.azimuths && p.azimuths->best_deg)
+    text += fmt::format(
+        "{:<14}{:g} degrees: idle nozzles hover for {:.1f} s over visible plastic of another colour, "
+        "not turned {:.1f} s\n",
+        "azimuth", p.azimuth_deg, at(p.azimuths->exposure_s, int(p.azimuth_deg)), p.azimuths->exposure_s[0]);
+  if (p.rampart != RampartShape::off)
+    text += fmt::format("{:<14}{}, {:.2f} g\n", "rampart",
+                        p.rampart == RampartShape::vertical ? "vertical" : "conforming", p.rampart_g);
+  return text;
+}
+
+}  // namespace
+
 std::string summary_table(const Summary& summary, const SliceRequest& request) {
   std::string table = fmt::format("{}\n", request.output.string());
   table += fmt::format("{:<14}{}\n", "layers", summary.layers);
   table += fmt::format("{:<14}{}\n", "tool changes", summary.tool_changes);
-  table += fmt::format("{:<14}{}\n\n", "time", duration_text(summary.time_s));
+  table += fmt::format("{:<14}{}\n", "time", duration_text(summary.time_s));
+  table += protection_table(summary.protection) + "\n";
 
   const bool has_cost = std::ranges::any_of(summary.extruders, [](const ExtruderUse& e) { return e.cost > 0; });
   table += fmt::format("{:<10}{:<12}{:>12}{:>10}{}\n", "extruder", "material", "filament", "weight",
@@ -40,9 +66,41 @@ std::string summary_json(const Summary& summary, const SliceRequest& request,
     json["extruders"].push_back(
         {{"extruder", i + 1}, {"filament_mm", use.filament_mm}, {"filament_g", use.filament_g}, {"cost", use.cost}});
   }
+  json["azimuth_deg"] = summary.protection.azimuth_deg;
+  json["rampart_g"] = summary.protection.rampart_g;
   json["warnings"] = warnings;
   // File names need not be UTF-8; JSON must be.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string azimuth_table(const Azimuths& azimuths) {
+  std::string table = fmt::format("{:<22}{:>16}{:>20}{:>24}\n", "", "turned by", "exposure, s", "interference, mm3");
+  const auto row = [&](std::string_view name, const std::optional<int>& degrees) {
+    table += fmt::format("{:<22}{:>16}", name, turn_text(degrees));
+    if (degrees)
+      table +=
+          fmt::format("{:>20.1f}{:>24.1f}", at(azimuths.exposure_s, *degrees), at(azimuths.interference_mm3, *degrees));
+    table += '\n';
+  };
+  row("as it is", 0);
+  row("least exposure", azimuths.best_deg);
+  row("least interference", azimuths.least_interference_deg);
+  return table + fmt::format("\nplastic of the part: {:.1f} mm3\n", azimuths.part_mm3);
+}
+
+std::string azimuth_json(const Azimuths& azimuths) {
+  const auto degrees = [](const std::optional<int>& turn) {
+    return turn ? nlohmann::ordered_json(*turn) : nlohmann::ordered_json();
+  };
+  nlohmann::ordered_json json;
+  json["best_deg"] = degrees(azimuths.best_deg);
+  json["least_interference_deg"] = degrees(azimuths.least_interference_deg);
+  json["part_mm3"] = azimuths.part_mm3;
+  json["exposure_s"] = azimuths.exposure_s;
+  json["interference_mm3"] = azimuths.interference_mm3;
+  json["fits"] = nlohmann::ordered_json::array();
+  for (const char fits : azimuths.fits) json["fits"].push_back(fits != 0);
+  return json.dump(2) + "\n";
 }
 
 }  // namespace cleancolor

@@ -16,4 +16,8 @@ std::string summary_table(const Summary& summary, const SliceRequest& request);
 /// One JSON object and a new line; its fields are documented in `cleancolor slice --help`.
 std::string summary_json(const Summary& summary, const SliceRequest& request, const std::vector<std::string>& warnings);
 
+/// What 'cleancolor azimuth' prints: no turn, the best one, and that of least interference.
+std::string azimuth_table(const Azimuths& azimuths);
+std::string azimuth_json(const Azimuths& azimuths);
+
 }  // namespace cleancolor

@@ -97,6 +97,7 @@ SliceRequest slice_request(const SliceCommand& command, const Progress& progress
   request.files = command.files;
   request.extruder_of_rgb = command.extruder_of_rgb;
   request.placement = command.placement;
+  request.azimuth_deg = command.azimuth_deg;
   request.overlap = command.overlap;
   request.output = command.output;
   request.preview = command.preview;

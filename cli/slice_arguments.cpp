@@ -20,7 +20,23 @@ const char* const slice_description =
     "Options hold in this order, the later over the earlier: defaults, --printer, --material, --print, --load, "
     "--set.\n";
 
+const char* const azimuth_description =
+    "Shows by how much to turn the parts so that idle nozzles hover least over another colour.\n"
+    "\n"
+    "Two curves over 360 degrees: the seconds that idle nozzles spend over visible plastic of another colour, by "
+    "which\n"
+    "'cleancolor slice' turns the parts, and the volume of all places that they pass over (Clean color, section 4).\n";
+
 namespace {
+
+constexpr const char* azimuth_footer =
+    "Examples:\n"
+    "  cleancolor azimuth ocean.stl land.stl --printer replicator-dual -o azimuth.svg\n"
+    "  cleancolor azimuth robot.3mf --printer my.toml --json\n"
+    "\n"
+    "--json prints one object: best_deg, least_interference_deg (null where no angle leaves room), part_mm3, and by\n"
+    "whole degrees from 0 to 359 the lists exposure_s, interference_mm3 and fits.\n"
+    "\n";
 
 constexpr const char* slice_footer =
     "Examples:\n"
@@ -33,7 +49,7 @@ constexpr const char* slice_footer =
     "--json prints one object instead of the table:\n"
     "  {\"output\": file, \"layers\": n, \"tool_changes\": n, \"time_s\": seconds without heating,\n"
     "   \"extruders\": [{\"extruder\": from 1, \"filament_mm\": n, \"filament_g\": n, \"cost\": n}],\n"
-    "   \"warnings\": [text]}\n"
+    "   \"azimuth_deg\": turned by, \"rampart_g\": n, \"warnings\": [text]}\n"
     "\n";
 
 // Extruders are numbered from 1 where people see them, from 0 inside.
@@ -70,7 +86,8 @@ Vec2 center_of(std::string_view text) {
 }
 
 // allow_extra_args(false): an option that may come again takes one word at a time, or it would swallow the files.
-void add_printing(CLI::App& app, Settings& settings) {
+void add_printing(CLI::App& app, SliceTexts& texts) {
+  Settings& settings = texts.command.settings;
   const char* group = "What to print with";
   app.add_option("--printer", settings.printer, "printer: a name from 'cleancolor profiles', or a .toml file")
       ->type_name("NAME|FILE.toml")
@@ -82,6 +99,10 @@ void add_printing(CLI::App& app, Settings& settings) {
   app.add_option("--print", settings.print, "print settings")->type_name("NAME|FILE.toml")->group(group);
   app.add_option("--load", settings.load, "configuration of PrusaSlicer or Slic3r: an .ini, or G-code that ends in one")
       ->type_name("FILE")
+      ->group(group);
+  app.add_option("--rampart", texts.rampart,
+                 "walls that wipe and fill nozzles: following the part, straight up, or none; short for --set rampart")
+      ->type_name("conforming|vertical|off")
       ->group(group);
   app.add_option("--set", settings.set, "one option, such as layer_height=0.2; repeatable; see 'cleancolor options'")
       ->type_name("NAME=VALUE")
@@ -109,6 +130,11 @@ void add_parts(CLI::App& app, SliceTexts& texts) {
   app.add_flag("--no-center", texts.keep, "keep X and Y of the files")->group(group);
   app.add_option("--rotate", texts.command.placement.rotate_deg, "turn all parts about Z, degrees counterclockwise")
       ->type_name("DEG")
+      ->group(group);
+  app.add_option("--azimuth", texts.azimuth,
+                 "turn them so that idle nozzles hover least over another colour (auto: where nozzles stay at the same "
+                 "height), not at all, or by DEG beside --rotate; see 'cleancolor azimuth'")
+      ->type_name("auto|off|DEG")
       ->group(group);
   app.add_option("--scale", texts.command.placement.scale, "scale all parts")->type_name("FACTOR")->group(group);
   app.add_option("--overlap", texts.overlap, "where two parts overlap: refuse, or give the place to the first or last")
@@ -155,6 +181,16 @@ std::vector<ModelFile> files_in_order(const CLI::App& app, const SliceTexts& tex
   return files;
 }
 
+/// Empty: auto.
+std::optional<double> azimuth_of(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  if (text == "off") return 0;
+  double degrees = 0;
+  if (!parse_whole(std::string_view(text), degrees) || !std::isfinite(degrees))
+    throw Error(fmt::format("--azimuth: '{}' is neither auto nor off nor an angle in degrees", text));
+  return degrees;
+}
+
 Overlap overlap_of(const std::string& text) {
   if (text == "refuse") return Overlap::refuse;
   if (text == "first") return Overlap::first;
@@ -168,15 +204,45 @@ CLI::App* add_slice(CLI::App& program, SliceTexts& texts) {
   CLI::App* slice = program.add_subcommand("slice", "slice meshes and write G-code");
   slice->footer(std::string(slice_footer) + exit_codes);
   add_parts(*slice, texts);
-  add_printing(*slice, texts.command.settings);
+  add_printing(*slice, texts);
   add_output(*slice, texts.command);
   return slice;
+}
+
+CLI::App* add_azimuth(CLI::App& program, SliceTexts& texts) {
+  CLI::App* azimuth = program.add_subcommand("azimuth", "show by how much to turn parts of several colours");
+  azimuth->footer(std::string(azimuth_footer) + exit_codes);
+  add_parts(*azimuth, texts);
+  add_printing(*azimuth, texts);
+  const char* group = "Output";
+  azimuth->add_option("-o,--output", texts.command.output, "both curves around the compass, as a picture")
+      ->type_name("FILE.svg")
+      ->group(group);
+  azimuth->add_flag("--json", texts.command.json, "print the curves as JSON")->group(group);
+  azimuth->add_flag("--quiet", texts.command.quiet, "print neither progress nor table; warnings still")->group(group);
+  azimuth->add_option("--threads", texts.command.threads, "number of threads; 0: as many as the machine has")
+      ->type_name("N")
+      ->group(group);
+  return azimuth;
+}
+
+AzimuthCommand azimuth_command(const CLI::App& app, SliceTexts texts) {
+  const std::filesystem::path picture = texts.command.output;
+  if (!picture.empty() && picture.extension() != ".svg")
+    throw Error(fmt::format("-o {}: the file's name must end in .svg", picture.string()));
+  AzimuthCommand command{slice_command(app, std::move(texts)), false};
+  command.slice.output = picture;
+  command.json = command.slice.json;
+  return command;
 }
 
 SliceCommand slice_command(const CLI::App& app, SliceTexts texts) {
   SliceCommand command = std::move(texts.command);
   command.files = files_in_order(app, texts);
-  if (command.files.empty()) throw Error("slice: name at least one mesh file; see cleancolor slice --help");
+  if (command.files.empty())
+    throw Error(fmt::format("{0}: name at least one mesh file; see cleancolor {0} --help", app.get_name()));
+  command.azimuth_deg = azimuth_of(texts.azimuth);
+  if (!texts.rampart.empty()) command.settings.set.push_back("rampart=" + texts.rampart);
   for (const std::string& text : texts.colours) {
     const auto [rgb, extruder] = colour_mapping(text);
     command.extruder_of_rgb[rgb] = extruder;

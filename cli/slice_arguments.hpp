@@ -1,6 +1,6 @@
 // cli/slice_arguments.hpp
 //
-// The arguments of `cleancolor slice`.
+// The arguments of `cleancolor slice` and `cleancolor azimuth`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,6 +18,8 @@ struct SliceTexts {
   std::vector<std::string> extruders;
   std::vector<std::string> colours;
   std::string center;
+  std::string azimuth = "auto";
+  std::string rampart;
   std::string overlap = "refuse";
   bool keep = false;
   CLI::Option* file_option = nullptr;
@@ -32,5 +34,10 @@ CLI::App* add_slice(CLI::App& program, SliceTexts& texts);
 
 /// Throws Error for what is not understood.
 SliceCommand slice_command(const CLI::App& app, SliceTexts texts);
+
+// `cleancolor azimuth` takes the same parts and printers.
+extern const char* const azimuth_description;
+CLI::App* add_azimuth(CLI::App& program, SliceTexts& texts);
+AzimuthCommand azimuth_command(const CLI::App& app, SliceTexts texts);
 
 }  // namespace cleancolor

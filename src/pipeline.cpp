@@ -13,6 +13,7 @@
 #include "model/read.hpp"
 #include "picture.hpp"
 #include "plan/plain_order.hpp"
+#include "protection.hpp"
 #include "slice/slices.hpp"
 #include "toolpath/bed.hpp"
 #include "toolpath/cooling.hpp"
@@ -39,7 +40,9 @@ std::vector<Part> parts_of(const SliceRequest& request, const Progress& progress
       part.mesh = checked(std::move(part.mesh), part.name, progress);
       parts.push_back(std::move(part));
     }
-  place(parts, request.config, request.placement, progress);
+  Placement placement = request.placement;
+  placement.rotate_deg += request.azimuth_deg.value_or(0);
+  place(parts, request.config, placement, progress);
   return parts;
 }
 
@@ -54,15 +57,6 @@ SliceOptions slice_options(const SliceRequest& request) {
           .elefant_foot_compensation_mm = config.elefant_foot_compensation_mm,
           .overlap = request.overlap,
           .threads = thread_count(request.threads)};
-}
-
-/// The last layer in which each extruder prints.
-std::vector<std::optional<int>> last_layers(const Slices& slices) {
-  std::vector<std::optional<int>> last(slices.regions.front().size());
-  for (std::size_t k = 0; k < slices.regions.size(); ++k)
-    for (std::size_t e = 0; e < last.size(); ++e)
-      if (!slices.regions[k][e].empty()) last[e] = int(k);
-  return last;
 }
 
 /// The extruder with the most of the first layer: its material must stick to the bed.
@@ -88,30 +82,62 @@ Error too_thin(const SliceRequest& request, int extruder) {
                   request.config.thin_walls ? "" : " thin_walls = 1 prints thinner ones"));
 }
 
+/// The walls of the rampart prime the nozzles, and stand where a skirt would; a brim stays within them.
+Config without_priming(Config config) {
+  config.skirts = 0;
+  config.prime_line_length_mm = 0;
+  config.brim_width_mm = std::min(config.brim_width_mm, config.ooze_shield_dist_mm - config.brim_separation_mm -
+                                                            config.extruders.front().nozzle_diameter_mm);
+  return config;
+}
+
+/// Without warnings, for what was said already.
+Progress silent(Progress progress) {
+  progress.warn = [](const std::string&) {};
+  return progress;
+}
+
+/// Whether the parts are turned so that idle nozzles hover over them least.
+bool is_azimuth_automatic(const SliceRequest& request, const Use& use) {
+  return !request.azimuth_deg && use.extruders.size() > 1 && request.config.idle_nozzle == IdleNozzle::same_height;
+}
+
+/// Where the middle of the parts' box stays when they are turned; empty: where place() puts it.
+std::optional<Vec2> fixed_center(const SliceRequest& request, std::span<const Part> parts) {
+  if (!request.placement.keep) return request.placement.center_mm;
+  Box<Vec3> box;
+  for (const Part& part : parts)
+    for (const Vec3& p : part.mesh.vertices) box.add(p);
+  return Vec2{box.center().x, box.center().y};
+}
+
+Azimuths azimuths_of(const SliceRequest& request, std::span<const Part> parts, const Slices& layers, const Use& use) {
+  return azimuths_of_print(layers, use, request.config, fixed_center(request, parts), thread_count(request.threads));
+}
+
 /// The layers of one print on their way from regions to G-code; each stage owns its slot of each layer.
 class Print {
  public:
-  Print(const SliceRequest& request, const Slices& slices, PrintInfo info, Sink sink, const Progress& progress)
+  Print(const SliceRequest& request, const Slices& slices, const Use& use, PrintInfo info, Sink sink,
+        const Progress& progress)
       : config_(request.config),
         request_(request),
         slices_(slices),
+        rampart_(slices, use, request.config),
         info_(std::move(info)),
         sink_(std::move(sink)),
         progress_(progress),
         shells_(slices.slabs.size()),
         areas_(slices.slabs.size()),
         paths_(slices.slabs.size()) {
-    std::vector<int> used;
-    for (std::size_t e = 0; e < info_.last_layer.size(); ++e)
-      if (info_.last_layer[e]) used.push_back(int(e));
-    if (used.empty()) throw too_thin(request, 0);
+    if (use.extruders.empty()) throw too_thin(request, 0);
     if (slices.outlines.front().empty())
       throw Error(
           fmt::format("{}: nothing of the model is left in the first layer (z = {:.2f} mm): it stands on a tip or an "
                       "edge; turn it so that it lies flat, or cut a little off",
                       request.files.front().path.filename().string(), slices.slabs.front().slice_z_mm()));
-    bed_ = bed_paths(slices, used, config_, progress);
-    state_.extruder = info_.initial_extruder = used.front();
+    bed_ = bed_paths(slices, use.extruders, rampart_.empty() ? config_ : without_priming(config_), progress);
+    state_.extruder = info_.initial_extruder = use.extruders.front();
     coverage_.resize(info_.last_layer.size());
   }
 
@@ -128,6 +154,8 @@ class Print {
     PrintFigures figures = writer_->finish();
     return figures;
   }
+
+  double rampart_g() const { return rampart_g_; }
 
  private:
   template <class T>
@@ -146,14 +174,24 @@ class Print {
     Layer layer{
         .index = k, .print_z_mm = slab.print_z_mm, .height_mm = slab.height_mm, .paths = {}, .fan_by_extruder = {}};
     if (k < int(bed_.size())) layer.paths = std::move(slot(bed_, k));
+    std::ranges::move(rampart_.paths(k), std::back_inserter(layer.paths));
     std::move(slot(paths_, k).begin(), slot(paths_, k).end(), std::back_inserter(layer.paths));
-    order(layer, state_, config_);
+    order(layer, state_, config_, rampart_.site(k));
     cool(layer, config_);
+    weigh(layer);
     if (!writer_) begin(layer);
     writer_->layer(layer);
     for (std::size_t e = 0; e < coverage_.size(); ++e) coverage_[e] += slot(shells_, k)[e].coverage;
     release(k);
     progress_.advance("slicing", double(k + 1) / double(slices_.slabs.size()));
+  }
+
+  void weigh(const Layer& layer) {
+    for (const Path& path : layer.paths) {
+      if (path.road().role != Role::rampart) continue;
+      const Extruder& e = config_.extruders[std::size_t(path.extruder)];
+      rampart_g_ += volume_mm3(path) * e.extrusion_multiplier * e.filament_density_g_cm3 / 1000;
+    }
   }
 
   /// Frees what no later layer reads.
@@ -193,6 +231,8 @@ class Print {
   const Config& config_;
   const SliceRequest& request_;
   const Slices& slices_;
+  PrintedRampart rampart_;
+  double rampart_g_ = 0;
   PrintInfo info_;
   Sink sink_;
   const Progress& progress_;
@@ -205,8 +245,8 @@ class Print {
   std::vector<Coverage> coverage_;  // of each extruder, all layers together
 };
 
-Summary summary_of(const PrintFigures& figures) {
-  Summary summary{figures.layers, figures.tool_changes, figures.time_s, {}};
+Summary summary_of(const PrintFigures& figures, Protection protection) {
+  Summary summary{figures.layers, figures.tool_changes, figures.time_s, {}, std::move(protection)};
   for (const FilamentUse& f : figures.extruders) summary.extruders.push_back({f.length_mm, f.weight_g, f.cost});
   return summary;
 }
@@ -214,32 +254,54 @@ Summary summary_of(const PrintFigures& figures) {
 }  // namespace
 
 Summary slice(const SliceRequest& request, const Progress& progress) {
-  const std::vector<Part> parts = parts_of(request, progress);
+  std::vector<Part> parts = parts_of(request, progress);
+  progress.advance("slicing", 0);
+  Slices layers = slices(parts, slice_options(request), progress);
+  Protection protection{.azimuth_deg = request.azimuth_deg.value_or(0), .azimuths = {}, .rampart_g = 0};
+  if (is_azimuth_automatic(request, Use(layers))) {
+    protection.azimuths = azimuths_of(request, parts, layers, Use(layers));
+    protection.azimuth_deg = protection.azimuths->best_deg.value_or(0);
+    if (protection.azimuth_deg != 0) {
+      place(parts, request.config, {.center_mm = fixed_center(request, parts), .rotate_deg = protection.azimuth_deg},
+            silent(progress));
+      layers = slices(parts, slice_options(request), silent(progress));
+    }
+  }
   std::optional<OutputFile> preview;
   if (!request.preview.empty()) {
     preview.emplace(request.preview);
     preview->write(picture(parts, request.config, 1024, 768));
   }
 
-  progress.advance("slicing", 0);
-  const Slices layers = slices(parts, slice_options(request), progress);
+  const Use use(layers);
+  protection.rampart = rampart_shape(request.config, use);
   PrintInfo info{.name = name_of(request),
                  .layer_count = int(layers.slabs.size()),
                  .max_z_mm = layers.slabs.back().print_z_mm,
                  .initial_extruder = 0,
                  .bed_extruder = bed_extruder(layers),
-                 .last_layer = last_layers(layers),
+                 .last_layer = use.last_layer,
                  .first_layer_box_mm = {},
                  .thumbnails = thumbnails(parts, request.config)};
   for (const Part& part : parts)
     if (!info.last_layer[std::size_t(*part.extruder)]) throw too_thin(request, *part.extruder);
 
   OutputFile file(request.output);
-  Print print(request, layers, std::move(info), to_file(file), progress);
+  Print print(request, layers, use, std::move(info), to_file(file), progress);
   const PrintFigures figures = print.run(thread_count(request.threads));
   file.commit();
   if (preview) preview->commit();
-  return summary_of(figures);
+  protection.rampart_g = print.rampart_g();
+  return summary_of(figures, std::move(protection));
+}
+
+Azimuths azimuths(const SliceRequest& request, const Progress& progress) {
+  const std::vector<Part> parts = parts_of(request, progress);
+  progress.advance("slicing", 0);
+  const Slices layers = slices(parts, slice_options(request), progress);
+  const Use use(layers);
+  if (use.extruders.empty()) throw too_thin(request, 0);
+  return azimuths_of(request, parts, layers, use);
 }
 
 }  // namespace cleancolor

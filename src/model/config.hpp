@@ -21,6 +21,9 @@ enum class IdleNozzle { same_height, lifted, parked, docked };
 enum class SeamPosition { nearest, aligned, rear, random };
 enum class FillPattern { rectilinear, grid, gyroid, concentric };
 enum class BrimType { no_brim, outer_only };
+enum class RampartShape { automatic, conforming, vertical, off };
+enum class RampartWalls { doubled, split };
+enum class RampartOrder { before_run, layer_start };
 
 /// A length in mm, or a share of another length: "0.45" or "105%".
 struct LengthOrShare {
@@ -166,6 +169,16 @@ struct Config {
   double brim_width_mm = 0;
   double brim_separation_mm = 0;
   double prime_line_length_mm = 40;  // where no skirt primes the nozzles; 0: none
+
+  // print: rampart
+  RampartShape rampart = RampartShape::automatic;      // conforming where idle nozzles stay at print height, else off
+  RampartWalls rampart_walls = RampartWalls::doubled;  // one for each extruder, or halves of one
+  RampartOrder rampart_order = RampartOrder::before_run;
+  double ooze_shield_dist_mm = 2;  // from the part to the first wall
+  double rampart_gap_mm = 4;       // from wall to wall
+  double rampart_speed_mm_s = 120;
+  double rampart_max_overhang_deg = 45;
+  double rampart_brim_width_mm = 2;
 
   // print: output
   double resolution_mm = 0.02;          // contours are simplified by this much before any offset

@@ -21,7 +21,7 @@ constexpr MachineAxis jerk_y{&C::machine_max_jerk_mm_s, &Vec3::y};
 constexpr MachineAxis jerk_z{&C::machine_max_jerk_mm_s, &Vec3::z};
 
 // Names and meanings are PrusaSlicer's; those it does not know are nozzle_offset, offsets_in, idle_nozzle, audit_only,
-// extruder_printable_area, heater_off_after_last_use and prime_line_length.
+// extruder_printable_area, heater_off_after_last_use, prime_line_length and those of the rampart (ooze_shield_dist is Cura's).
 // clang-format off
 constexpr Option table[] = {
   {"printer_model", printer, "Machine", &C::printer_model, "", 0, 0, "name of the machine; a label only"},
@@ -160,6 +160,15 @@ constexpr Option table[] = {
   {"brim_width", print, "Skirt, brim and priming", &C::brim_width_mm, "mm", 0, 1000, "width of the brim; 0: none"},
   {"brim_separation", print, "Skirt, brim and priming", &C::brim_separation_mm, "mm", 0, 100, "gap between brim and object"},
   {"prime_line_length", print, "Skirt, brim and priming", &C::prime_line_length_mm, "mm", 0, 1000, "line that primes a nozzle before its first use where no skirt does; 0: none"},
+
+  {"rampart", print, "Rampart", &C::rampart, "", 0, 0, "walls around prints in several colours that wipe and fill nozzles: conforming follows the part, vertical goes straight up; auto: conforming where idle nozzles stay at the same height, else off"},
+  {"rampart_walls", print, "Rampart", &C::rampart_walls, "", 0, 0, "double: one wall for each extruder; split: one wall for two extruders, each prints the half on the far side of its nozzle"},
+  {"rampart_order", print, "Rampart", &C::rampart_order, "", 0, 0, "when a wall is printed: just before its own colour's run, or all walls where a layer starts"},
+  {"ooze_shield_dist", print, "Rampart", &C::ooze_shield_dist_mm, "mm", 0.5, 50, "from the object to the first wall"},
+  {"rampart_gap", print, "Rampart", &C::rampart_gap_mm, "mm", 0.5, 50, "from wall to wall"},
+  {"rampart_speed", print, "Rampart", &C::rampart_speed_mm_s, "mm/s", 1, 1000, "of the walls"},
+  {"rampart_max_overhang", print, "Rampart", &C::rampart_max_overhang_deg, "degrees", 0, 80, "how far conforming walls lean over, from the vertical; at most half a line a layer"},
+  {"rampart_brim_width", print, "Rampart", &C::rampart_brim_width_mm, "mm", 0, 100, "of the walls in the first layer, so that they stand; 0: none"},
 
   {"resolution", print, "Output", &C::resolution_mm, "mm", 0, 1, "outlines are simplified by this much before anything else"},
   {"gcode_resolution", print, "Output", &C::gcode_resolution_mm, "mm", 0, 1, "print paths are simplified by this much"},

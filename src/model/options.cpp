@@ -22,6 +22,9 @@ constexpr std::string_view idle_nozzles[] = {"same_height", "lifted", "parked", 
 constexpr std::string_view seam_positions[] = {"nearest", "aligned", "rear", "random"};
 constexpr std::string_view fill_patterns[] = {"rectilinear", "grid", "gyroid", "concentric"};
 constexpr std::string_view brim_types[] = {"no_brim", "outer_only"};
+constexpr std::string_view rampart_shapes[] = {"auto", "conforming", "vertical", "off"};
+constexpr std::string_view rampart_walls[] = {"double", "split"};
+constexpr std::string_view rampart_orders[] = {"before_run", "layer_start"};
 
 std::span<const std::string_view> names_of(Flavour) {
   return flavours;
@@ -40,6 +43,15 @@ std::span<const std::string_view> names_of(FillPattern) {
 }
 std::span<const std::string_view> names_of(BrimType) {
   return brim_types;
+}
+std::span<const std::string_view> names_of(RampartShape) {
+  return rampart_shapes;
+}
+std::span<const std::string_view> names_of(RampartWalls) {
+  return rampart_walls;
+}
+std::span<const std::string_view> names_of(RampartOrder) {
+  return rampart_orders;
 }
 
 // The type of the value that a field holds.

@@ -1,1 +1,109 @@
 #include "orient/azimuth.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "orient/exposure.hpp"
+#include "orient/interference.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr int angle_count = 360;
+constexpr double same_exposure = 0.01;      // share of the largest
+constexpr double same_interference = 1e-3;  // share of the part
+
+/// 0, 1, -1, 2, -2, ... 180: the smallest turn first.
+std::vector<int> turns() {
+  std::vector<int> all{0};
+  for (int a = 1; a < angle_count / 2; ++a) all.insert(all.end(), {a, -a});
+  all.push_back(angle_count / 2);
+  return all;
+}
+
+std::size_t slot(int turn) {
+  return std::size_t((turn + angle_count) % angle_count);
+}
+
+/// The smallest turn that fits and is as good as the best that fits, give or take.
+std::optional<int> least(const std::vector<double>& curve, const std::vector<char>& fits, double tolerance) {
+  std::optional<int> best;
+  for (const int turn : turns())
+    if (fits[slot(turn)] && (!best || curve[slot(turn)] < curve[slot(*best)])) best = turn;
+  if (!best) return best;
+  const double bound = curve[slot(*best)] + tolerance;
+  for (const int turn : turns())
+    if (fits[slot(turn)] && curve[slot(turn)] <= bound) return turn;
+  return best;
+}
+
+Vec2 turned(Vec2 v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+/// Ordered pairs of extruders that print something.
+std::vector<std::pair<int, int>> pairs(const Slices& slices) {
+  std::vector<int> used;
+  for (std::size_t e = 0; !slices.regions.empty() && e < slices.regions.front().size(); ++e)
+    if (std::ranges::any_of(slices.regions, [&](const auto& layer) { return !layer[e].empty(); }))
+      used.push_back(int(e));
+  std::vector<std::pair<int, int>> all;
+  for (const int i : used)
+    for (const int j : used)
+      if (i != j) all.emplace_back(i, j);
+  return all;
+}
+
+}  // namespace
+
+Pace pace(const Config& config, int extruder) {
+  const double nozzle = config.extruders[std::size_t(extruder)].nozzle_diameter_mm;
+  const auto width = [&](const LengthOrShare& own) {
+    for (const LengthOrShare& w : {own, config.extrusion_width})
+      if (w.value > 0) return w.of(config.layer_height_mm);
+    return 1.125 * nozzle;
+  };
+  const double wall = width(config.perimeter_extrusion_width), fill = width(config.infill_extrusion_width);
+  return {.shell_mm = config.perimeters * wall,
+          .shell_s_mm2 = 1 / (wall * config.perimeter_speed_mm_s),
+          .inner_s_mm2 = config.fill_density / (fill * config.infill_speed_mm_s)};
+}
+
+Azimuths azimuths(const Slices& slices, const AzimuthOptions& options) {
+  Azimuths result;
+  result.interference_mm3.resize(angle_count);
+  result.exposure_s.resize(angle_count);
+  result.fits.resize(angle_count, 1);
+  if (options.fits)
+    for (int a = 0; a < angle_count; ++a) result.fits[std::size_t(a)] = options.fits(a);
+  for (std::size_t k = 0; k < slices.slabs.size(); ++k)
+    for (const Polygons& region : slices.regions[k]) result.part_mm3 += area_mm2(region) * slices.slabs[k].height_mm;
+
+  const std::vector<std::pair<int, int>> all = pairs(slices);
+  if (!all.empty()) {
+    const Interference interference(slices);
+    const ExposureMap exposure(slices, options.pace, options.threads);
+    // For two nozzles half a turn swaps p and p + d: the volume stays the same. The exposure does not.
+    const int half = all.size() == 2 ? angle_count / 2 : angle_count;
+    parallel_for(angle_count, options.threads, [&](int a) {
+      for (const auto& [printing, idle] : all) {
+        const Vec2 delta =
+            options.nozzle_offset_mm[std::size_t(idle)] - options.nozzle_offset_mm[std::size_t(printing)];
+        const Vec2 d = turned(delta, -a * std::numbers::pi / 180);
+        if (a < half) result.interference_mm3[std::size_t(a)] += interference.volume_mm3(printing, idle, d);
+        result.exposure_s[std::size_t(a)] += exposure.seconds(printing, idle, d);
+      }
+    });
+    for (int a = half; a < angle_count; ++a)
+      result.interference_mm3[std::size_t(a)] = result.interference_mm3[std::size_t(a - half)];
+  }
+  result.best_deg = least(result.exposure_s, result.fits, same_exposure * std::ranges::max(result.exposure_s));
+  result.least_interference_deg = least(result.interference_mm3, result.fits, same_interference * result.part_mm3);
+  return result;
+}
+
+}  // namespace cleancolor

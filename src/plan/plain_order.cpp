@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "shield/start.hpp"
+
 namespace cleancolor {
 namespace {
 
@@ -61,18 +63,35 @@ std::vector<int> outer_loops(const std::vector<Path>& paths) {
   return result;
 }
 
+constexpr std::size_t walls_compared = 8;
+
 /// [extruder][island]; std::map keeps both in their order.
 using Islands = std::map<int, std::map<int, std::vector<Path>>>;
 
 class Orderer {
  public:
-  Orderer(Layer& layer, OrderState& state, const Config& config) : layer_(layer), state_(state), config_(config) {}
+  Orderer(Layer& layer, OrderState& state, const Config& config, const RampartSite& site)
+      : layer_(layer), state_(state), config_(config), site_(site) {}
 
   void run() {
     Islands paths;
-    for (Path& path : layer_.paths) paths[path.extruder][path.island].push_back(std::move(path));
+    for (Path& path : layer_.paths) {
+      std::map<int, std::vector<Path>>& own = paths[path.extruder];
+      (path.road().role == Role::rampart ? walls_[path.extruder] : own[path.island]).push_back(std::move(path));
+    }
     layer_.paths.clear();
-    for (const int extruder : sequence(paths)) print_extruder(extruder, paths[extruder]);
+    const std::vector<int> extruders = sequence(paths);
+    // The walls of the first extruder last, so that it goes on.
+    if (config_.rampart_order == RampartOrder::layer_start)
+      for (std::size_t i = extruders.size(); i-- > 0;) {
+        print_bed(paths[extruders[i]]);
+        print_walls(extruders[i]);
+      }
+    for (const int extruder : extruders) {
+      print_bed(paths[extruder]);
+      print_walls(extruder);
+      print_extruder(extruder, paths[extruder]);
+    }
     state_.seams.next_layer();
   }
 
@@ -83,19 +102,50 @@ class Orderer {
     std::vector<int> result;
     for (const auto& [extruder, islands] : paths) result.push_back(extruder);
     const auto rank = [&](int extruder) {
-      const bool only_primed = paths.at(extruder).rbegin()->first == -1;
+      const bool only_primed = paths.at(extruder).empty() || paths.at(extruder).rbegin()->first == -1;
       return layer_.index == 0 && only_primed ? 0 : extruder == state_.extruder ? 1 : 2;
     };
     std::stable_sort(result.begin(), result.end(), [&](int a, int b) { return rank(a) < rank(b); });
     return result;
   }
 
+  /// Skirt, brim and prime lines.
+  void print_bed(std::map<int, std::vector<Path>>& islands) {
+    const auto bed = islands.find(-1);
+    if (bed == islands.end()) return;
+    for (Path& path : bed->second) print(std::move(path));
+    islands.erase(bed);
+  }
+
+  /// One after the other, each begun where it wipes best.
+  void print_walls(int extruder) {
+    std::vector<Path> walls = std::move(walls_[extruder]);
+    walls_.erase(extruder);
+    if (walls.empty()) return;
+    scene_.idle_mm.clear();
+    const Vec2 own = config_.extruders[std::size_t(extruder)].nozzle_offset_mm;
+    for (const int e : site_.extruders)
+      if (e != extruder) scene_.idle_mm.push_back(config_.extruders[std::size_t(e)].nozzle_offset_mm - own);
+    if (scene_.part.empty()) scene_.part = site_.part;
+    state_.extruder = extruder;
+    while (!walls.empty()) {
+      // Of the nearest few the one that exposes the part least.
+      std::ranges::stable_sort(walls, {}, [&](const Path& wall) { return distance_to(wall, state_.at); });
+      std::size_t best = 0;
+      WallStart start = wall_start(walls.front(), scene_, state_.at);
+      for (std::size_t i = 1; i < std::min(walls.size(), walls_compared) && start.exposure_mm > 0; ++i)
+        if (const WallStart other = wall_start(walls[i], scene_, state_.at); other.exposure_mm < start.exposure_mm)
+          start = other, best = i;
+      Path wall = begun(std::move(walls[best]), start);
+      walls.erase(walls.begin() + std::ptrdiff_t(best));
+      state_.at = wall.end();
+      scene_.standing.push_back(wall);
+      layer_.paths.push_back(std::move(wall));
+    }
+  }
+
   void print_extruder(int extruder, std::map<int, std::vector<Path>>& islands) {
     state_.extruder = extruder;
-    if (const auto bed = islands.find(-1); bed != islands.end()) {
-      for (Path& path : bed->second) print(std::move(path));
-      islands.erase(bed);
-    }
     // An island whose box is farther than the nearest path so far need not be looked at.
     std::map<int, Box<Vec2>> boxes;
     for (const auto& [island, paths] : islands)
@@ -155,12 +205,15 @@ class Orderer {
   Layer& layer_;
   OrderState& state_;
   const Config& config_;
+  const RampartSite& site_;
+  std::map<int, std::vector<Path>> walls_;  // by extruder
+  WallScene scene_;
 };
 
 }  // namespace
 
-void order(Layer& layer, OrderState& state, const Config& config) {
-  Orderer(layer, state, config).run();
+void order(Layer& layer, OrderState& state, const Config& config, const RampartSite& site) {
+  Orderer(layer, state, config, site).run();
 }
 
 }  // namespace cleancolor

@@ -8,6 +8,7 @@
 // then fills. It is the baseline that the planner of clean colour is measured against.
 #pragma once
 
+#include "base/polygon.hpp"
 #include "model/config.hpp"
 #include "plan/seam.hpp"
 #include "toolpath/path.hpp"
@@ -21,9 +22,16 @@ struct OrderState {
   SeamMemory seams;
 };
 
+/// What the walls of a rampart must know of a layer.
+struct RampartSite {
+  std::vector<int> extruders;  // whose nozzles are hot
+  Polygons part;               // all plastic of the part
+};
+
 /// The layer's paths in printing order: closed ones begun at their seam, open ones turned round where that is nearer.
-/// Paths of no island (Path::island == -1) come first for each extruder, in the order given.
+/// Paths of no island (Path::island == -1) come first for each extruder, in the order given; walls of the rampart
+/// (Role::rampart) by rampart_order, begun where idle nozzles are wiped first (shield/start.hpp).
 /// Cost: quadratic in the number of paths of an island and of islands.
-void order(Layer& layer, OrderState& state, const Config& config);
+void order(Layer& layer, OrderState& state, const Config& config, const RampartSite& site = {});
 
 }  // namespace cleancolor

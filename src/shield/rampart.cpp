@@ -1,1 +1,107 @@
 #include "shield/rampart.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace cleancolor {
+namespace {
+
+constexpr double detail_mm = 0.1;      // finer details of the part do not show in a wall
+constexpr double bay_radius_mm = 10;   // of bays that a wall passes by
+constexpr double left_out_mm = 0.05;   // points of a wall that lie nearer to the line between their neighbours
+constexpr double least_disc_mm = 3;    // radius that an island keeps where it shrinks downwards
+constexpr double longest_steps = 2.5;  // so far from an old outline a shrunk one may lie
+constexpr double sliver_mm2 = 0.01;
+
+/// Outer rings alone, united: what lies in a hole lies inside.
+Polygons filled(const Polygons& region) {
+  Polygons outer;
+  for (const Ring& ring : region)
+    if (ClipperLib::Orientation(ring)) outer.push_back(ring);
+  Polygons result;
+  for (Ring& ring : united(outer))
+    if (ClipperLib::Orientation(ring)) result.push_back(std::move(ring));
+  return result;
+}
+
+/// Without its details, but none is lost as a whole.
+Polygons without_details(const Polygons& outline) {
+  Polygons result;
+  for (const Ring& ring : outline) {
+    const Polygons less = simplified(Polygons{ring}, detail_mm);
+    result.insert(result.end(), less.empty() ? ring : less.front());
+  }
+  return result;
+}
+
+/// The part grown by distance_mm at least; what is narrower than twice the radius between two of its walls is filled,
+/// a wall shortens its way there.
+Polygons around(const Polygons& outline, double distance_mm) {
+  const Polygons region = filled(offset(without_details(filled(outline)), distance_mm + detail_mm, Corners::round));
+  Polygons result;
+  for (const Ring& island : region)
+    for (Ring& ring : closed(Polygons{island}, bay_radius_mm, Corners::round)) result.push_back(std::move(ring));
+  return filled(result);
+}
+
+/// An island shrunk by one step, where walls on its outline carry those around the island; else as it is.
+Polygons carrying(const Ring& island, double step_mm) {
+  const Polygons whole{island};
+  Polygons small = offset(whole, -step_mm, Corners::round);
+  if (small.size() != 1 || offset(small, -least_disc_mm, Corners::round).empty()) return whole;
+  const Polygons lost = difference(whole, offset(small, longest_steps * step_mm, Corners::round));
+  return area_mm2(lost) > sliver_mm2 ? whole : small;
+}
+
+Polygons carrying(const Polygons& region, double step_mm) {
+  Polygons result;
+  for (const Ring& island : region)
+    for (Ring& ring : carrying(island, step_mm)) result.push_back(std::move(ring));
+  return result;
+}
+
+/// Regions that each rest on the one below.
+void make_stand(std::vector<Polygons>& regions, const std::vector<double>& step_mm) {
+  const std::size_t count = regions.size();
+  for (std::size_t k = count - 1; k-- > 0;)
+    regions[k] = filled(simplified(united(regions[k], carrying(regions[k + 1], step_mm[k + 1])), left_out_mm / 5));
+  for (std::size_t k = 1; k < count; ++k)
+    regions[k] =
+        filled(simplified(united(regions[k], offset(regions[k - 1], -step_mm[k], Corners::round)), left_out_mm / 5));
+}
+
+}  // namespace
+
+double overhang_step_mm(double layer_height_mm, const RampartOptions& options) {
+  return std::min(layer_height_mm * std::tan(options.max_overhang_deg * std::numbers::pi / 180),
+                  options.line_width_mm / 2);
+}
+
+Rampart rampart(std::span<const Polygons> outlines, std::span<const double> height_mm, const RampartOptions& options) {
+  assert(outlines.size() == height_mm.size() && options.walls > 0);
+  Rampart result;
+  result.walls.resize(outlines.size(), std::vector<Polygons>(std::size_t(options.walls)));
+  if (outlines.empty()) return result;
+  std::vector<double> step_mm;
+  for (const double h : height_mm) step_mm.push_back(overhang_step_mm(h, options));
+  std::vector<Polygons> regions;
+  for (const Polygons& outline : outlines) regions.push_back(around(outline, options.distance_mm));
+  for (int wall = 0; wall < options.walls; ++wall) {
+    if (options.conforming) {
+      make_stand(regions, step_mm);
+    } else if (wall == 0) {
+      Polygons all;
+      for (const Polygons& region : regions) all.insert(all.end(), region.begin(), region.end());
+      std::ranges::fill(regions, filled(all));
+    }
+    for (std::size_t k = 0; k < regions.size(); ++k) {
+      result.walls[k][std::size_t(wall)] = simplified(regions[k], left_out_mm);
+      regions[k] = filled(offset(regions[k], options.gap_mm, Corners::round));
+    }
+  }
+  return result;
+}
+
+}  // namespace cleancolor

@@ -89,6 +89,7 @@ std::string_view role_name(Role role) {
     case Role::skirt_brim:
       return "Skirt/Brim";
     case Role::prime:
+    case Role::rampart:
     case Role::refill:
       return "Skirt/Brim";
     case Role::ironing:

@@ -26,6 +26,7 @@ enum class Role : std::uint8_t {
   gap_fill,
   skirt_brim,
   prime,
+  rampart,
   // Only in G-code of other slicers.
   ironing,
   support,
@@ -35,13 +36,14 @@ enum class Role : std::uint8_t {
   custom,   // the user's own code
   unknown,  // the file does not say
 };
-inline constexpr int role_count = 17;
+inline constexpr int role_count = 18;
 
 /// Plastic that is not the part's: it wipes nozzles and fills them, and is thrown away.
 constexpr bool is_auxiliary(Role role) {
   switch (role) {
     case Role::skirt_brim:
     case Role::prime:
+    case Role::rampart:
     case Role::support:
     case Role::support_interface:
     case Role::wipe_tower:

@@ -1,0 +1,29 @@
+#include "cli/azimuth.hpp"
+
+#include <ostream>
+
+#include "base/output_file.hpp"
+#include "cli/console.hpp"
+#include "cli/report.hpp"
+#include "cli/slice.hpp"
+
+namespace cleancolor {
+
+void run(const AzimuthCommand& command, std::ostream& out, std::ostream& err, bool err_is_terminal) {
+  Console console(err, {.terminal = err_is_terminal, .quiet = command.slice.quiet});
+  const Progress progress = console.progress();
+  const Azimuths found = azimuths(slice_request(command.slice, progress), progress);
+  console.clear();
+  if (!command.slice.output.empty()) {
+    OutputFile picture(command.slice.output);
+    picture.write(azimuth_svg(found));
+    picture.commit();
+  }
+  if (command.json) {
+    out << azimuth_json(found);
+  } else if (!command.slice.quiet) {
+    out << azimuth_table(found);
+  }
+}
+
+}  // namespace cleancolor

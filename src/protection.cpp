@@ -1,0 +1,171 @@
+#include "protection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "model/reach.hpp"
+#include "shield/walls.hpp"
+#include "toolpath/roads.hpp"
+
+namespace cleancolor {
+namespace {
+
+/// Layers in which an idle nozzle is hot: those below the end of the last but one extruder, or all.
+int protected_layers(const Slices& slices, const Use& use, const Config& config) {
+  if (!config.heater_off_after_last_use) return int(slices.slabs.size());
+  std::vector<int> last;
+  for (const int e : use.extruders) last.push_back(*use.last_layer[std::size_t(e)]);
+  std::ranges::sort(last, std::greater());
+  return last[1] + 1;
+}
+
+Road wall_road(const Config& config, int extruder, int layer, const Slab& slab) {
+  Road road = roads(config, extruder, layer, slab).skirt_brim;
+  road.role = Role::rampart;
+  road.speed_mm_s = layer == 0 ? config.first_layer_speed.of(config.rampart_speed_mm_s) : config.rampart_speed_mm_s;
+  return road;
+}
+
+Vec2 offset_mm(const Config& config, int extruder) {
+  return config.extruders[std::size_t(extruder)].nozzle_offset_mm;
+}
+
+Polygons common_reach(const Config& config, const std::vector<int>& extruders) {
+  Polygons common = reach(config, extruders.front());
+  for (const int e : extruders) common = intersection(common, reach(config, e));
+  return common;
+}
+
+std::size_t wall_count(const Config& config, const Use& use) {
+  return config.rampart_walls == RampartWalls::split && use.extruders.size() == 2 ? 1 : use.extruders.size();
+}
+
+}  // namespace
+
+Use::Use(const Slices& slices) : last_layer(slices.regions.empty() ? 0 : slices.regions.front().size()) {
+  for (std::size_t k = 0; k < slices.regions.size(); ++k)
+    for (std::size_t e = 0; e < last_layer.size(); ++e)
+      if (!slices.regions[k][e].empty()) last_layer[e] = int(k);
+  for (std::size_t e = 0; e < last_layer.size(); ++e)
+    if (last_layer[e]) extruders.push_back(int(e));
+}
+
+RampartShape rampart_shape(const Config& config, const Use& use) {
+  if (use.extruders.size() < 2) return RampartShape::off;
+  if (config.rampart != RampartShape::automatic) return config.rampart;
+  return config.idle_nozzle == IdleNozzle::same_height ? RampartShape::conforming : RampartShape::off;
+}
+
+double rampart_reach_mm(const Config& config, const Use& use) {
+  if (rampart_shape(config, use) == RampartShape::off) return 0;
+  const double outermost = config.ooze_shield_dist_mm + double(wall_count(config, use) - 1) * config.rampart_gap_mm;
+  return outermost + config.rampart_brim_width_mm + config.extruders.front().nozzle_diameter_mm;
+}
+
+PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Config& config)
+    : slices_(slices), use_(use), config_(config) {
+  const RampartShape shape = rampart_shape(config, use);
+  if (shape == RampartShape::off) return;
+  const auto layers = std::size_t(protected_layers(slices, use, config));
+  std::vector<double> height_mm;
+  for (std::size_t k = 0; k < layers; ++k) height_mm.push_back(slices.slabs[k].height_mm);
+  const Slab& usual = slices.slabs.back();
+  rampart_ = rampart(std::span(slices.outlines).first(layers), height_mm,
+                     {.conforming = shape == RampartShape::conforming,
+                      .walls = int(wall_count(config, use)),
+                      .distance_mm = config.ooze_shield_dist_mm,
+                      .gap_mm = config.rampart_gap_mm,
+                      .line_width_mm = wall_road(config, use.extruders.front(), 1, usual).width_mm,
+                      .max_overhang_deg = config.rampart_max_overhang_deg});
+  split_ = wall_count(config, use) < use.extruders.size();
+  if (split_) {
+    const Vec2 to_second = offset_mm(config, use.extruders[1]) - offset_mm(config, use.extruders[0]);
+    if (to_second == Vec2{})
+      throw Error("rampart_walls = split: both nozzles have the same nozzle_offset; use rampart_walls = double");
+    middle_mm_ = dot(bounds_mm(rampart_.walls.front().front()).center(), to_second * (1 / length(to_second)));
+  }
+  require_reach();
+}
+
+void PrintedRampart::require_reach() const {
+  const Polygons room = common_reach(config_, use_.extruders);
+  for (const std::vector<Polygons>& walls : rampart_.walls)
+    for (const Polygons& wall : walls) {
+      if (difference(wall, room).empty()) continue;
+      const Vec2 size = bounds_mm(wall).size(), bed = bounds_mm(room).size();
+      throw Error(fmt::format(
+          "the rampart would leave the bed: its walls take {:.0f} x {:.0f} mm, all nozzles reach {:.0f} x {:.0f} mm; "
+          "turn the part (--azimuth, --rotate), make it smaller, use rampart_walls = split, or go without: --rampart "
+          "off",
+          size.x, size.y, bed.x, bed.y));
+    }
+}
+
+std::vector<Path> PrintedRampart::paths(int layer) const {
+  if (layer >= int(rampart_.walls.size())) return {};
+  const std::vector<Polygons>& walls = rampart_.walls[std::size_t(layer)];
+  const Slab& slab = slices_.slabs[std::size_t(layer)];
+  const auto& regions = slices_.regions[std::size_t(layer)];
+  const auto prints = [&](int e) { return layer == 0 || !regions[std::size_t(e)].empty(); };
+  const auto any = std::ranges::find_if(use_.extruders, prints);
+  const int stand_in = any != use_.extruders.end() ? *any : use_.extruders.front();
+  std::vector<WallPrinter> printers;
+  for (const int e : use_.extruders) {
+    const int extruder = prints(e) ? e : stand_in;
+    printers.push_back({extruder, wall_road(config_, extruder, layer, slab)});
+  }
+  std::vector<Path> paths;
+  if (layer == 0) {
+    std::vector<WallPrinter> brims = printers;
+    for (WallPrinter& brim : brims) brim.road = roads(config_, brim.extruder, 0, slab).skirt_brim;
+    paths = wall_brims(walls, brims, config_.rampart_brim_width_mm, spacing_mm(brims.front().road));
+  }
+  std::vector<Path> own;
+  if (split_) {
+    const Vec2 to_second = offset_mm(config_, use_.extruders[1]) - offset_mm(config_, use_.extruders[0]);
+    own = half_wall_paths(walls.front(), {printers[0], printers[1]}, to_second, middle_mm_);
+  } else {
+    own = wall_paths(walls, printers);
+  }
+  std::ranges::move(own, std::back_inserter(paths));
+  return paths;
+}
+
+RampartSite PrintedRampart::site(int layer) const {
+  if (layer >= int(rampart_.walls.size())) return {};
+  return {use_.extruders, slices_.outlines[std::size_t(layer)]};
+}
+
+Azimuths azimuths_of_print(const Slices& slices, const Use& use, const Config& config, std::optional<Vec2> center_mm,
+                           int threads) {
+  AzimuthOptions options;
+  for (std::size_t e = 0; e < config.extruders.size(); ++e) {
+    options.nozzle_offset_mm.push_back(config.extruders[e].nozzle_offset_mm);
+    options.pace.push_back(pace(config, int(e)));
+  }
+  options.threads = threads;
+  const Polygons room = common_reach(config, use.extruders);
+  const Vec2 target = center_mm.value_or(bounds_mm(room).center());
+  Polygons all;
+  for (const Polygons& outline : slices.outlines) all.insert(all.end(), outline.begin(), outline.end());
+  const std::vector<Vec2> hull = to_mm(convex_hull(all));
+  const double margin_mm = rampart_reach_mm(config, use);
+  options.fits = [=](int degrees) {
+    const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+    std::vector<Vec2> turned;
+    Box<Vec2> box;
+    for (const Vec2 p : hull) {
+      turned.push_back({c * p.x - s * p.y, s * p.x + c * p.y});
+      box.add(turned.back());
+    }
+    Ring ring;
+    for (const Vec2 p : turned) ring.push_back(to_nm(p - box.center() + target));
+    return difference(offset({ring}, margin_mm, Corners::round), room).empty();
+  };
+  return azimuths(slices, options);
+}
+
+}  // namespace cleancolor

@@ -1,0 +1,63 @@
+// protection.hpp
+//
+// Protection: what keeps the colours of one print apart, made from its layers: the angle at which the parts stand, and
+// the rampart around them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "model/config.hpp"
+#include "orient/azimuth.hpp"
+#include "plan/plain_order.hpp"
+#include "shield/rampart.hpp"
+#include "slice/slices.hpp"
+
+namespace cleancolor {
+
+/// The extruders that print something, ascending, and the last layer of each.
+struct Use {
+  explicit Use(const Slices& slices);
+  std::vector<int> extruders;
+  std::vector<std::optional<int>> last_layer;  // by extruder
+};
+
+/// Conforming, vertical or off: what the print gets. Off for one extruder alone.
+RampartShape rampart_shape(const Config& config, const Use& use);
+
+/// How far the rampart reaches beyond the part in the first layer, with its brim; 0 where there is none.
+double rampart_reach_mm(const Config& config, const Use& use);
+
+/// The rampart of a print, up to the last layer in which an idle nozzle is hot.
+class PrintedRampart {
+ public:
+  /// Throws Error where a wall would leave the reach of its nozzle.
+  PrintedRampart(const Slices& slices, const Use& use, const Config& config);
+
+  bool empty() const { return rampart_.walls.empty(); }
+
+  /// Walls of the layer, and their brim in the first one. A wall belongs to its own extruder where that prints in this
+  /// layer, or is primed in it (the first); else to one that does.
+  std::vector<Path> paths(int layer) const;
+
+  /// What the order must know of the layer.
+  RampartSite site(int layer) const;
+
+ private:
+  void require_reach() const;
+
+  const Slices& slices_;
+  const Use& use_;
+  const Config& config_;
+  bool split_ = false;
+  double middle_mm_ = 0;  // of the split
+  Rampart rampart_;
+};
+
+/// Both curves, and the best turn that leaves room for the rampart. center_mm: where the middle of the turned parts'
+/// box will be; empty: of the area that all needed nozzles reach.
+Azimuths azimuths_of_print(const Slices& slices, const Use& use, const Config& config, std::optional<Vec2> center_mm,
+                           int threads);
+
+}  // namespace cleancolor

@@ -1,0 +1,35 @@
+// shield/walls.hpp
+//
+// Walls: the rampart's centre lines of one layer as paths, each with the extruder that prints it.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/polygon.hpp"
+#include "toolpath/path.hpp"
+
+namespace cleancolor {
+
+struct WallPrinter {
+  int extruder = 0;
+  Road road;
+};
+
+/// Closed paths, wall k by printers[k]; several of one wall where objects stand apart. Requires: a printer for each.
+std::vector<Path> wall_paths(std::span<const Polygons> walls, std::span<const WallPrinter> printers);
+
+/// One wall for two: printers[0] prints what lies further in the direction of `to_second` than `middle_mm` (a distance
+/// from the origin along it), printers[1] the other half; so the idle nozzle hovers beside the part, and the half that
+/// stands first is the one that the other nozzle must cross. to_second: the second nozzle as seen from the first. The
+/// halves overlap by 1 mm. A ring that does not reach the middle is one closed path.  Requires: to_second not zero.
+std::vector<Path> half_wall_paths(const Polygons& wall, const std::array<WallPrinter, 2>& printers, Vec2 to_second,
+                                  double middle_mm);
+
+/// Loops around each wall, on its outer side up to width_mm, from the outside in.
+/// Requires: spacing_mm > 0, the distance of neighbouring roads.
+std::vector<Path> wall_brims(std::span<const Polygons> walls, std::span<const WallPrinter> printers, double width_mm,
+                             double spacing_mm);
+
+}  // namespace cleancolor
