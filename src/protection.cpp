@@ -122,6 +122,10 @@ std::vector<Path> PrintedRampart::paths(int layer) const {
     std::vector<WallPrinter> brims = printers;
     for (WallPrinter& brim : brims) brim.road = roads(config_, brim.extruder, 0, slab).skirt_brim;
     paths = wall_brims(walls, brims, config_.rampart_brim_width_mm, spacing_mm(brims.front().road));
+    const Polygons room = common_reach(config_, use_.extruders);
+    std::erase_if(paths, [&](const Path& loop) {
+      return !std::ranges::all_of(loop.points, [&](Vec2 p) { return contains(room, to_nm(p)); });
+    });
   }
   std::vector<Path> own;
   if (split_) {

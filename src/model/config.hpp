@@ -171,8 +171,8 @@ struct Config {
   double prime_line_length_mm = 40;  // where no skirt primes the nozzles; 0: none
 
   // print: rampart
-  RampartShape rampart = RampartShape::automatic;      // conforming where idle nozzles stay at print height, else off
-  RampartWalls rampart_walls = RampartWalls::doubled;  // one for each extruder, or halves of one
+  RampartShape rampart = RampartShape::automatic;    // conforming where idle nozzles stay at print height, else off
+  RampartWalls rampart_walls = RampartWalls::split;  // halves of one for two extruders, or one for each
   RampartOrder rampart_order = RampartOrder::before_run;
   double ooze_shield_dist_mm = 2;  // from the part to the first wall
   double rampart_gap_mm = 4;       // from wall to wall

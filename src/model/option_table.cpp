@@ -162,7 +162,7 @@ constexpr Option table[] = {
   {"prime_line_length", print, "Skirt, brim and priming", &C::prime_line_length_mm, "mm", 0, 1000, "line that primes a nozzle before its first use where no skirt does; 0: none"},
 
   {"rampart", print, "Rampart", &C::rampart, "", 0, 0, "walls around prints in several colours that wipe and fill nozzles: conforming follows the part, vertical goes straight up; auto: conforming where idle nozzles stay at the same height, else off"},
-  {"rampart_walls", print, "Rampart", &C::rampart_walls, "", 0, 0, "double: one wall for each extruder; split: one wall for two extruders, each prints the half on the far side of its nozzle"},
+  {"rampart_walls", print, "Rampart", &C::rampart_walls, "", 0, 0, "split: two extruders share one wall, each prints the half on the far side of its nozzle; more than two, and double: one wall for each"},
   {"rampart_order", print, "Rampart", &C::rampart_order, "", 0, 0, "when a wall is printed: just before its own colour's run, or all walls where a layer starts"},
   {"ooze_shield_dist", print, "Rampart", &C::ooze_shield_dist_mm, "mm", 0.5, 50, "from the object to the first wall"},
   {"rampart_gap", print, "Rampart", &C::rampart_gap_mm, "mm", 0.5, 50, "from wall to wall"},

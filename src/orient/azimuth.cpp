@@ -13,8 +13,9 @@ namespace cleancolor {
 namespace {
 
 constexpr int angle_count = 360;
-constexpr double same_exposure = 0.01;      // share of the largest
-constexpr double same_interference = 1e-3;  // share of the part
+constexpr double same_exposure = 0.25;        // of the least: smears follow it no closer
+constexpr double negligible_exposure = 0.01;  // of the largest
+constexpr double same_interference = 1e-3;    // share of the part
 
 /// 0, 1, -1, 2, -2, ... 180: the smallest turn first.
 std::vector<int> turns() {
@@ -29,15 +30,16 @@ std::size_t slot(int turn) {
 }
 
 /// The smallest turn that fits and is as good as the best that fits, give or take.
-std::optional<int> least(const std::vector<double>& curve, const std::vector<char>& fits, double tolerance) {
+std::optional<int> least(const std::vector<double>& curve, const std::vector<char>& fits, double share,
+                         double tolerance) {
   std::optional<int> best;
   for (const int turn : turns())
     if (fits[slot(turn)] && (!best || curve[slot(turn)] < curve[slot(*best)])) best = turn;
   if (!best) return best;
-  const double bound = curve[slot(*best)] + tolerance;
-  for (const int turn : turns())
-    if (fits[slot(turn)] && curve[slot(turn)] <= bound) return turn;
-  return best;
+  const double bound = curve[slot(*best)] * (1 + share) + tolerance;
+  const auto good = [&](int turn) { return fits[slot(turn)] && curve[slot(turn)] <= bound; };
+  const std::vector<int> all = turns();
+  return *std::ranges::find_if(all, good);
 }
 
 Vec2 turned(Vec2 v, double angle) {
@@ -101,8 +103,9 @@ Azimuths azimuths(const Slices& slices, const AzimuthOptions& options) {
     for (int a = half; a < angle_count; ++a)
       result.interference_mm3[std::size_t(a)] = result.interference_mm3[std::size_t(a - half)];
   }
-  result.best_deg = least(result.exposure_s, result.fits, same_exposure * std::ranges::max(result.exposure_s));
-  result.least_interference_deg = least(result.interference_mm3, result.fits, same_interference * result.part_mm3);
+  result.best_deg =
+      least(result.exposure_s, result.fits, same_exposure, negligible_exposure * std::ranges::max(result.exposure_s));
+  result.least_interference_deg = least(result.interference_mm3, result.fits, 0, same_interference * result.part_mm3);
   return result;
 }
 

@@ -108,6 +108,7 @@ TEST_P(StackedCubes, ChangeToolsOnce) {
   // And once more after the upper cube's nozzle was primed, which the peers leave out.
   EXPECT_EQ(result.summary.tool_changes, 2);
   EXPECT_EQ(printed.tools, (std::vector{1, 0, 1}));
+  config.rampart = RampartShape::off;
   config.skirts = 0;
   config.prime_line_length_mm = 0;
   result = sliced(folder, {cube(), box_mesh({0, 0, 20}, {20, 20, 40})}, config);

@@ -112,6 +112,7 @@ SliceRequest request_for(const std::vector<std::filesystem::path>& files, const 
   SliceRequest request;
   for (const auto& file : files) request.files.push_back({file, {}});
   request.config = config;
+  request.azimuth_deg = 0;  // the tests look for parts where the files put them
   request.output = output;
   request.threads = 1;  // the tests themselves run side by side
   return request;
