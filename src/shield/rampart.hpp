@@ -42,7 +42,7 @@ struct Rampart {
 };
 
 /// outlines: of the part, one for each layer that the rampart goes up to; height_mm: of each layer.
-/// In each layer no point of a wall is closer than distance_mm to the part; points closer than 0.05 mm to the line
+/// In each layer no point of a wall is closer than distance_mm to the part; points closer than 0.02 mm to the line
 /// between their neighbours are left out.  Cost: some 2 ms a layer and wall, on one thread.
 Rampart rampart(std::span<const Polygons> outlines, std::span<const double> height_mm, const RampartOptions& options);
 
