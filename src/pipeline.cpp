@@ -123,7 +123,7 @@ class Print {
       : config_(request.config),
         request_(request),
         slices_(slices),
-        rampart_(slices, use, request.config),
+        rampart_(slices, use, request.config, thread_count(request.threads)),
         info_(std::move(info)),
         sink_(std::move(sink)),
         progress_(progress),

@@ -65,7 +65,7 @@ double rampart_reach_mm(const Config& config, const Use& use) {
   return outermost + config.rampart_brim_width_mm + config.extruders.front().nozzle_diameter_mm;
 }
 
-PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Config& config)
+PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Config& config, int threads)
     : slices_(slices), use_(use), config_(config) {
   const RampartShape shape = rampart_shape(config, use);
   if (shape == RampartShape::off) return;
@@ -79,7 +79,8 @@ PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Confi
                       .distance_mm = config.ooze_shield_dist_mm,
                       .gap_mm = config.rampart_gap_mm,
                       .line_width_mm = wall_road(config, use.extruders.front(), 1, usual).width_mm,
-                      .max_overhang_deg = config.rampart_max_overhang_deg});
+                      .max_overhang_deg = config.rampart_max_overhang_deg,
+                      .threads = threads});
   split_ = wall_count(config, use) < use.extruders.size();
   if (split_) {
     const Vec2 to_second = offset_mm(config, use.extruders[1]) - offset_mm(config, use.extruders[0]);

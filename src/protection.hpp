@@ -33,7 +33,7 @@ double rampart_reach_mm(const Config& config, const Use& use);
 class PrintedRampart {
  public:
   /// Throws Error where a wall would leave the reach of its nozzle.
-  PrintedRampart(const Slices& slices, const Use& use, const Config& config);
+  PrintedRampart(const Slices& slices, const Use& use, const Config& config, int threads);
 
   bool empty() const { return rampart_.walls.empty(); }
 

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/parallel.hpp"
+
 namespace cleancolor {
 namespace {
 
 constexpr double detail_mm = 0.1;      // finer details of the part do not show in a wall
 constexpr double bay_radius_mm = 10;   // of bays that a wall passes by
+constexpr double finer_mm = 0.02;     // likewise of each step towards a wall
 constexpr double left_out_mm = 0.02;   // points of a wall that lie nearer to the line between their neighbours
 constexpr double least_disc_mm = 3;    // radius that an island keeps where it shrinks downwards
 constexpr double longest_steps = 2.5;  // so far from an old outline a shrunk one may lie
@@ -36,22 +39,27 @@ Polygons without_details(const Polygons& outline) {
   return result;
 }
 
+/// Round corners have more points than walls need, and each further step would add to them.
+Polygons grown(const Polygons& region, double delta_mm) {
+  return simplified(offset(region, delta_mm, Corners::round), finer_mm);
+}
+
 /// The part grown by distance_mm at least; what is narrower than twice the radius between two of its walls is filled,
 /// a wall shortens its way there.
 Polygons around(const Polygons& outline, double distance_mm) {
-  const Polygons region = filled(offset(without_details(filled(outline)), distance_mm + detail_mm, Corners::round));
+  const Polygons region = filled(grown(without_details(filled(outline)), distance_mm + detail_mm));
   Polygons result;
   for (const Ring& island : region)
-    for (Ring& ring : closed(Polygons{island}, bay_radius_mm, Corners::round)) result.push_back(std::move(ring));
+    for (Ring& ring : grown(grown({island}, bay_radius_mm), -bay_radius_mm)) result.push_back(std::move(ring));
   return filled(result);
 }
 
 /// An island shrunk by one step, where walls on its outline carry those around the island; else as it is.
 Polygons carrying(const Ring& island, double step_mm) {
   const Polygons whole{island};
-  Polygons small = offset(whole, -step_mm, Corners::round);
-  if (small.size() != 1 || offset(small, -least_disc_mm, Corners::round).empty()) return whole;
-  const Polygons lost = difference(whole, offset(small, longest_steps * step_mm, Corners::round));
+  Polygons small = grown(whole, -step_mm);
+  if (small.size() != 1 || grown(small, -least_disc_mm).empty()) return whole;
+  const Polygons lost = difference(whole, grown(small, longest_steps * step_mm));
   return area_mm2(lost) > sliver_mm2 ? whole : small;
 }
 
@@ -66,10 +74,8 @@ Polygons carrying(const Polygons& region, double step_mm) {
 void make_stand(std::vector<Polygons>& regions, const std::vector<double>& step_mm) {
   const std::size_t count = regions.size();
   for (std::size_t k = count - 1; k-- > 0;)
-    regions[k] = filled(simplified(united(regions[k], carrying(regions[k + 1], step_mm[k + 1])), left_out_mm / 5));
-  for (std::size_t k = 1; k < count; ++k)
-    regions[k] =
-        filled(simplified(united(regions[k], offset(regions[k - 1], -step_mm[k], Corners::round)), left_out_mm / 5));
+    regions[k] = filled(united(regions[k], carrying(regions[k + 1], step_mm[k + 1])));
+  for (std::size_t k = 1; k < count; ++k) regions[k] = filled(united(regions[k], grown(regions[k - 1], -step_mm[k])));
 }
 
 }  // namespace
@@ -86,8 +92,9 @@ Rampart rampart(std::span<const Polygons> outlines, std::span<const double> heig
   if (outlines.empty()) return result;
   std::vector<double> step_mm;
   for (const double h : height_mm) step_mm.push_back(overhang_step_mm(h, options));
-  std::vector<Polygons> regions;
-  for (const Polygons& outline : outlines) regions.push_back(around(outline, options.distance_mm));
+  std::vector<Polygons> regions(outlines.size());
+  parallel_for(int(outlines.size()), options.threads,
+               [&](int k) { regions[std::size_t(k)] = around(outlines[std::size_t(k)], options.distance_mm); });
   for (int wall = 0; wall < options.walls; ++wall) {
     if (options.conforming) {
       make_stand(regions, step_mm);
@@ -96,10 +103,11 @@ Rampart rampart(std::span<const Polygons> outlines, std::span<const double> heig
       for (const Polygons& region : regions) all.insert(all.end(), region.begin(), region.end());
       std::ranges::fill(regions, filled(all));
     }
-    for (std::size_t k = 0; k < regions.size(); ++k) {
+    parallel_for(int(regions.size()), options.threads, [&](int i) {
+      const auto k = std::size_t(i);
       result.walls[k][std::size_t(wall)] = simplified(regions[k], left_out_mm);
-      regions[k] = filled(offset(regions[k], options.gap_mm, Corners::round));
-    }
+      if (wall + 1 < options.walls) regions[k] = filled(grown(regions[k], options.gap_mm));
+    });
   }
   return result;
 }

@@ -31,6 +31,7 @@ struct RampartOptions {
   double gap_mm = 4;             // from wall to wall, centre lines
   double line_width_mm = 0.4;    // of the walls
   double max_overhang_deg = 45;  // from the vertical
+  int threads = 1;
 };
 
 /// By how much a wall may lie beside the wall below: layer height x tan(max_overhang), at most half a line.
