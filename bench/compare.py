@@ -29,7 +29,8 @@ def prusa_command(name, output):
 
 
 def our_command(program, name, output):
-    return [program, "slice", *models.stl_pair(name), "--load", models.SETTINGS, "-o", output, "--quiet"]
+    return [program, "slice", *models.stl_pair(name), "--load", models.SETTINGS, "-o", output, "--quiet",
+            "--azimuth", "off", "--rampart", "off"]
 
 
 def undisturbed():

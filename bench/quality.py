@@ -28,8 +28,19 @@ COMPARED = [
     ("cura", "plain", "Cura"),
     ("cura", "shield", "Cura, ooze shield"),
     ("cura", "shield+tower", "Cura, shield + prime tower"),
-    ("ours", "plain", "**cleancolor**"),
+    ("ours", "off", "cleancolor, nothing against ooze"),
+    ("ours", "default", "**cleancolor**"),
 ]
+# Our own variants: what each adds to the command line.
+OURS = {
+    "off": ["--azimuth", "off", "--rampart", "off"],
+    "vertical": ["--rampart", "vertical", "--set", "rampart_walls=double"],
+    "conforming": ["--rampart", "conforming", "--set", "rampart_walls=double"],
+    "default": [],
+    "layer_start": ["--set", "rampart_order=layer_start", "--set", "rampart_walls=double"],
+}
+RAMPARTS = [("off", "off"), ("vertical", "vertical, two walls (the paper's)"), ("conforming", "conforming, two walls"),
+            ("layer_start", "conforming, both walls at layer start"), ("default", "**conforming, split (the default)**")]
 # Everything that ../shared/peers can make: --every-variant reads it all.
 VARIANTS = {
     "prusa": ["plain", "tower", "tower140", "shield", "ooze", "tower+shield", "acp", "tower+acp", "fwoffset",
@@ -54,9 +65,9 @@ def slice_with_peer(name, slicer, variant, output):
     unfinished.rename(output)
 
 
-def slice_with_ours(program, name, output):
-    subprocess.run([program, "slice", *models.stl_pair(name), "--load", models.SETTINGS, "-o", output, "--quiet"],
-                   check=True)
+def slice_with_ours(program, name, variant, output):
+    subprocess.run([program, "slice", *models.stl_pair(name), "--load", models.SETTINGS, "-o", output, "--quiet",
+                    *OURS[variant]], check=True, stderr=subprocess.DEVNULL)
 
 
 def sliced(program, name, slicer, variant):
@@ -64,7 +75,7 @@ def sliced(program, name, slicer, variant):
     output = kept(name, slicer, variant)
     KEPT.mkdir(parents=True, exist_ok=True)
     if slicer == "ours":
-        slice_with_ours(program, name, output)
+        slice_with_ours(program, name, variant, output)
     elif not output.exists():
         slice_with_peer(name, slicer, variant, output)
     return output
@@ -129,7 +140,7 @@ def plots(results, folder):
     from matplotlib.patches import Patch
 
     titles = [title.strip("*") for _, _, title in COMPARED]
-    palette = ["#56B4E9", "#0072B2", "#00528A", "#8CC7E8", "#E69F00", "#D55E00", "#A04000", "#009E73"]
+    palette = ["#56B4E9", "#0072B2", "#00528A", "#8CC7E8", "#E69F00", "#D55E00", "#A04000", "#A5D6C5", "#009E73"]
     plot, axes = pyplot.subplots(2, 1, figsize=(9, 6), sharex=True, constrained_layout=True)
     for axis, (key, label, _) in zip(axes, FIGURES):
         for k, title in enumerate(titles):
@@ -167,6 +178,22 @@ def plots(results, folder):
     pyplot.close(plot)
 
 
+def rampart_table(program, names):
+    """Markdown: what the rampart of each kind does and costs, all turned by the same azimuth but the first."""
+    lines = ["| model | rampart | smear while printing, mm3 | while travelling | holes, mm3 | time | thrown away, cm3 | "
+             "of vertical |", "|" + "---|" * 8]
+    for name in names:
+        judged = {v: audited(program, sliced(program, name, "ours", v), v) for v, _ in RAMPARTS}
+        vertical = filament_mm3(judged["vertical"], "auxiliary")
+        for variant, title in RAMPARTS:
+            j = judged[variant]
+            wasted = filament_mm3(j, "auxiliary")
+            lines.append(f"| {name} | {title} | {figure(j, 'smear_volume_print'):.2f} | "
+                         f"{figure(j, 'smear_volume_travel'):.2f} | {figure(j, 'hole_volume'):.2f} | "
+                         f"{j['print']['time_s'] / 60:.0f} min | {wasted / 1000:.2f} | {wasted / vertical:.2f} |")
+    return "\n".join(lines) + "\n"
+
+
 def write_markdown(results, notes):
     pictures = models.ROOT / "docs" / "pictures"
     plots(results, pictures)
@@ -191,8 +218,11 @@ def compare(options):
         notes += different_parts(name, rows)
         print(table(name, rows), flush=True)
     print(*notes, sep="\n")
+    ramparts = rampart_table(options.program, results)
+    print(ramparts)
     if options.write:
         write_markdown(results, notes)
+        replace_between_markers(models.ROOT / "docs" / "benchmarks.md", "scripts/bench quality --write, rampart", ramparts)
 
 
 def unknown_moves(judged):
