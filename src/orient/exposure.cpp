@@ -136,15 +136,23 @@ void ExposureMap::find_places(int threads) {
 }
 
 double ExposureMap::seconds(int printing, int idle, Vec2 d_mm) const {
+  // Between four whole shifts, or the curve would jump from cell to cell.
   const Vec2 cells = d_mm * (1 / cell_mm_);
-  const int dx = int(std::lround(cells.x)), dy = int(std::lround(cells.y));
-  double sum = 0;
+  const int dx = int(std::floor(cells.x)), dy = int(std::floor(cells.y));
+  const double fx = cells.x - dx, fy = cells.y - dy;
   const Pace& pace = pace_[std::size_t(printing)];
+  const auto here_s_mm2 = [&](int x, int y, int level) {
+    const std::uint8_t cell = at(x, y, level);
+    if (cell == none || (cell & ~shell) != printing) return 0.;
+    return (cell & shell) != 0 ? pace.shell_s_mm2 : pace.inner_s_mm2;
+  };
+  double sum = 0;
   for (const Place& q : places_) {
     if (q.colour == idle) continue;
-    const std::uint8_t cell = at(q.x - dx, q.y - dy, q.level);
-    if (cell == none || (cell & ~shell) != printing) continue;
-    sum += double(q.weight_mm2) * ((cell & shell) != 0 ? pace.shell_s_mm2 : pace.inner_s_mm2);
+    const int x = q.x - dx, y = q.y - dy;
+    const double low = std::lerp(here_s_mm2(x, y, q.level), here_s_mm2(x - 1, y, q.level), fx);
+    const double high = std::lerp(here_s_mm2(x, y - 1, q.level), here_s_mm2(x - 1, y - 1, q.level), fx);
+    sum += double(q.weight_mm2) * std::lerp(low, high, fy);
   }
   return sum;
 }

@@ -25,7 +25,7 @@ class ExposureMap {
   ExposureMap(const Slices& slices, const std::vector<Pace>& pace, int threads);
 
   /// Visibility x seconds, while nozzle `printing` works and nozzle `idle` is d_mm beside it.
-  /// Cost: about 3 ns for each visible place.
+  /// Cost: about 10 ns for each visible place.
   double seconds(int printing, int idle, Vec2 d_mm) const;
 
  private:
