@@ -21,7 +21,8 @@ constexpr MachineAxis jerk_y{&C::machine_max_jerk_mm_s, &Vec3::y};
 constexpr MachineAxis jerk_z{&C::machine_max_jerk_mm_s, &Vec3::z};
 
 // Names and meanings are PrusaSlicer's; those it does not know are nozzle_offset, offsets_in, idle_nozzle, audit_only,
-// extruder_printable_area, heater_off_after_last_use, prime_line_length and those of the rampart (ooze_shield_dist is Cura's).
+// extruder_printable_area, heater_off_after_last_use, prime_line_length and those of the rampart
+// (ooze_shield_dist is Cura's).
 // clang-format off
 constexpr Option table[] = {
   {"printer_model", printer, "Machine", &C::printer_model, "", 0, 0, "name of the machine; a label only"},

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double detail_mm = 0.1;      // finer details of the part do not show in a wall
 constexpr double bay_radius_mm = 10;   // of bays that a wall passes by
-constexpr double finer_mm = 0.02;     // likewise of each step towards a wall
+constexpr double finer_mm = 0.02;      // likewise of each step towards a wall
 constexpr double left_out_mm = 0.02;   // points of a wall that lie nearer to the line between their neighbours
 constexpr double least_disc_mm = 3;    // radius that an island keeps where it shrinks downwards
 constexpr double longest_steps = 2.5;  // so far from an old outline a shrunk one may lie

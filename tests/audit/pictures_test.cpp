@@ -6,13 +6,6 @@
 #include "audit/picture_parts.hpp"
 #include "drawn.hpp"
 
-// fontconfig keeps its configuration to the end of the program, and cairo recordings that it wrote as SVG; the leak
-// checker of the asan build asks here.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libfontconfig\nleak:libcairo";
-}
-
 namespace cleancolor {
 namespace {
 

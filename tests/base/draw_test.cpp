@@ -11,12 +11,6 @@
 
 using namespace cleancolor;
 
-// fontconfig keeps its configuration to the end of the program; the leak checker of the asan build asks here.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libfontconfig";
-}
-
 namespace {
 
 constexpr std::string_view png_start = "\x89PNG\r\n";

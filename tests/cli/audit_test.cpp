@@ -137,13 +137,9 @@ struct Outcome {
 
 // arguments: as in a shell, relative to the folder.
 Outcome run(const TestFolder& folder, const std::string& arguments, const std::string& before = "") {
-  // fontconfig keeps its configuration to the end of the program, and cairo recordings that it wrote as SVG; the leak
-  // checker of the asan build looks here.
-  const std::string leaks = folder.file("leaks", "leak:libfontconfig\nleak:libcairo\n");
   const std::string out = folder.path("stdout"), err = folder.path("stderr");
-  const std::string command =
-      fmt::format("cd '{}' && LSAN_OPTIONS='suppressions={}:print_suppressions=0' {} '{}' audit {} > '{}' 2> '{}'",
-                  folder.path("."), leaks, before, CLEANCOLOR_PROGRAM, arguments, out, err);
+  const std::string command = fmt::format("cd '{}' && {} '{}' audit {} > '{}' 2> '{}'", folder.path("."), before,
+                                          CLEANCOLOR_PROGRAM, arguments, out, err);
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(out), file_text(err)};
 }
