@@ -174,11 +174,12 @@ class Print {
     Layer layer{
         .index = k, .print_z_mm = slab.print_z_mm, .height_mm = slab.height_mm, .paths = {}, .fan_by_extruder = {}};
     if (k < int(bed_.size())) layer.paths = std::move(slot(bed_, k));
-    std::ranges::move(rampart_.paths(k), std::back_inserter(layer.paths));
+    std::vector<Path> walls = rampart_.paths(k);
+    rampart_g_ += weight_g(walls);
+    std::ranges::move(walls, std::back_inserter(layer.paths));
     std::move(slot(paths_, k).begin(), slot(paths_, k).end(), std::back_inserter(layer.paths));
     order(layer, state_, config_, rampart_.site(k));
     cool(layer, config_);
-    weigh(layer);
     if (!writer_) begin(layer);
     writer_->layer(layer);
     for (std::size_t e = 0; e < coverage_.size(); ++e) coverage_[e] += slot(shells_, k)[e].coverage;
@@ -186,12 +187,13 @@ class Print {
     progress_.advance("slicing", double(k + 1) / double(slices_.slabs.size()));
   }
 
-  void weigh(const Layer& layer) {
-    for (const Path& path : layer.paths) {
-      if (path.road().role != Role::rampart) continue;
+  double weight_g(std::span<const Path> paths) const {
+    double sum = 0;
+    for (const Path& path : paths) {
       const Extruder& e = config_.extruders[std::size_t(path.extruder)];
-      rampart_g_ += volume_mm3(path) * e.extrusion_multiplier * e.filament_density_g_cm3 / 1000;
+      sum += volume_mm3(path) * e.extrusion_multiplier * e.filament_density_g_cm3 / 1000;
     }
+    return sum;
   }
 
   /// Frees what no later layer reads.
