@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "audit/bit_grid.hpp"
+#include "base/bit_grid.hpp"
 #include "base/vec.hpp"
 #include "toolpath/path.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "audit/bit_grid.hpp"
+#include "base/bit_grid.hpp"
 
 namespace cleancolor {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "audit/voxels.hpp"
+#include "audit/part_voxels.hpp"
 
 namespace cleancolor {
 

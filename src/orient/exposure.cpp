@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/parallel.hpp"
-#include "orient/rows.hpp"
+#include "base/rows.hpp"
 
 namespace cleancolor {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "orient/rows.hpp"
+#include "base/rows.hpp"
 #include "slice/slices.hpp"
 
 namespace cleancolor {

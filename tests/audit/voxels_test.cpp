@@ -1,4 +1,4 @@
-#include "audit/voxels.hpp"
+#include "audit/part_voxels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ PartLayer cube_layer(int i) {
 }
 
 Voxels cube() {
-  return voxels(part_roads(20, cube_layer, 1), {.size_mm = 0.5, .nozzles = true}, 1);
+  return part_voxels(part_roads(20, cube_layer, 1), {.size_mm = 0.5}, true, 1);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// audit/bit_grid.hpp
+// base/bit_grid.hpp
 //
 // Bit grids: cells as one long string of bits, 64 to a word, so that one instruction works on 64 cells.
 //

@@ -1,4 +1,4 @@
-#include "audit/bit_grid.hpp"
+#include "base/bit_grid.hpp"
 
 #include <algorithm>
 #include <array>

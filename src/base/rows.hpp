@@ -1,4 +1,4 @@
-// orient/rows.hpp
+// base/rows.hpp
 //
 // Rows: regions as lines that a comb would cut out of them.
 //

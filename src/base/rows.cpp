@@ -1,4 +1,4 @@
-#include "orient/rows.hpp"
+#include "base/rows.hpp"
 
 #include <algorithm>
 #include <cmath>
