@@ -12,7 +12,10 @@ namespace cleancolor {
 void run(const AzimuthCommand& command, std::ostream& out, std::ostream& err, bool err_is_terminal) {
   Console console(err, {.terminal = err_is_terminal, .quiet = command.slice.quiet});
   const Progress progress = console.progress();
-  const Azimuths found = azimuths(slice_request(command.slice, progress), progress);
+  const SliceRequest request = slice_request(command.slice, progress);
+  const Azimuths found = azimuths(request, progress);
+  if (request.config.idle_nozzle != IdleNozzle::same_height)
+    progress.warn("idle nozzles of this printer leave the print: both curves are what they would do if they did not");
   console.clear();
   if (!command.slice.output.empty()) {
     OutputFile picture(command.slice.output);

@@ -26,6 +26,8 @@ std::string protection_table(const Protection& p) {
         "{:<14}{:g} degrees: idle nozzles hover for {:.1f} s over visible plastic of another colour, "
         "not turned {:.1f} s\n",
         "azimuth", p.azimuth_deg, at(p.azimuths->exposure_s, int(p.azimuth_deg)), p.azimuths->exposure_s[0]);
+  else if (p.azimuth_deg != 0)
+    text += fmt::format("{:<14}{:g} degrees, as asked for\n", "azimuth", p.azimuth_deg);
   if (p.rampart != RampartShape::off)
     text += fmt::format("{:<14}{}, {:.2f} g\n", "rampart",
                         p.rampart == RampartShape::vertical ? "vertical" : "conforming", p.rampart_g);
@@ -83,9 +85,14 @@ std::string azimuth_table(const Azimuths& azimuths) {
     table += '\n';
   };
   row("as it is", 0);
-  row("least exposure", azimuths.best_deg);
-  row("least interference", azimuths.least_interference_deg);
-  return table + fmt::format("\nplastic of the part: {:.1f} mm3\n", azimuths.part_mm3);
+  row("chosen, by exposure", azimuths.best_deg);
+  row("by interference", azimuths.least_interference_deg);
+  table += fmt::format("\nplastic of the part: {:.1f} mm3\n", azimuths.part_mm3);
+  if (std::ranges::max(azimuths.interference_mm3) == 0)
+    table += "no idle nozzle meets another colour at any angle\n";
+  else if (azimuths.best_deg)
+    table += "chosen is the smallest turn that is about as good as the best\n";
+  return table;
 }
 
 std::string azimuth_json(const Azimuths& azimuths) {

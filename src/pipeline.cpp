@@ -263,6 +263,8 @@ Summary slice(const SliceRequest& request, const Progress& progress) {
   if (is_azimuth_automatic(request, Use(layers))) {
     protection.azimuths = azimuths_of(request, parts, layers, Use(layers));
     protection.azimuth_deg = protection.azimuths->best_deg.value_or(0);
+    if (!protection.azimuths->best_deg)
+      progress.warn("the parts stay as they are: at no angle they and their rampart have room; see cleancolor azimuth");
     if (protection.azimuth_deg != 0) {
       place(parts, request.config, {.center_mm = fixed_center(request, parts), .rotate_deg = protection.azimuth_deg},
             silent(progress));

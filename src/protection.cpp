@@ -39,8 +39,19 @@ Polygons common_reach(const Config& config, const std::vector<int>& extruders) {
   return common;
 }
 
+/// From the first to the second of two nozzles.
+Vec2 to_second_mm(const Config& config, const Use& use) {
+  return offset_mm(config, use.extruders[1]) - offset_mm(config, use.extruders[0]);
+}
+
+/// Halves need two nozzles that hang beside each other; docked ones take each other's place.
+bool is_split(const Config& config, const Use& use) {
+  return config.rampart_walls == RampartWalls::split && use.extruders.size() == 2 &&
+         to_second_mm(config, use) != Vec2{};
+}
+
 std::size_t wall_count(const Config& config, const Use& use) {
-  return config.rampart_walls == RampartWalls::split && use.extruders.size() == 2 ? 1 : use.extruders.size();
+  return is_split(config, use) ? 1 : use.extruders.size();
 }
 
 }  // namespace
@@ -59,10 +70,11 @@ RampartShape rampart_shape(const Config& config, const Use& use) {
   return config.idle_nozzle == IdleNozzle::same_height ? RampartShape::conforming : RampartShape::off;
 }
 
-double rampart_reach_mm(const Config& config, const Use& use) {
+/// How far the rampart reaches beyond the part; 0 where there is none. Its brim ends where the bed does.
+static double rampart_reach_mm(const Config& config, const Use& use) {
   if (rampart_shape(config, use) == RampartShape::off) return 0;
   const double outermost = config.ooze_shield_dist_mm + double(wall_count(config, use) - 1) * config.rampart_gap_mm;
-  return outermost + config.rampart_brim_width_mm + config.extruders.front().nozzle_diameter_mm;
+  return outermost + config.extruders.front().nozzle_diameter_mm;
 }
 
 PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Config& config, int threads)
@@ -81,11 +93,9 @@ PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Confi
                       .line_width_mm = wall_road(config, use.extruders.front(), 1, usual).width_mm,
                       .max_overhang_deg = config.rampart_max_overhang_deg,
                       .threads = threads});
-  split_ = wall_count(config, use) < use.extruders.size();
+  split_ = is_split(config, use);
   if (split_) {
-    const Vec2 to_second = offset_mm(config, use.extruders[1]) - offset_mm(config, use.extruders[0]);
-    if (to_second == Vec2{})
-      throw Error("rampart_walls = split: both nozzles have the same nozzle_offset; use rampart_walls = double");
+    const Vec2 to_second = to_second_mm(config, use);
     middle_mm_ = dot(bounds_mm(rampart_.walls.front().front()).center(), to_second * (1 / length(to_second)));
   }
   require_reach();
@@ -96,12 +106,13 @@ void PrintedRampart::require_reach() const {
   for (const std::vector<Polygons>& walls : rampart_.walls)
     for (const Polygons& wall : walls) {
       if (difference(wall, room).empty()) continue;
-      const Vec2 size = bounds_mm(wall).size(), bed = bounds_mm(room).size();
+      const Box<Vec2> walls_mm = bounds_mm(wall), room_mm = bounds_mm(room);
       throw Error(fmt::format(
-          "the rampart would leave the bed: its walls take {:.0f} x {:.0f} mm, all nozzles reach {:.0f} x {:.0f} mm; "
-          "turn the part (--azimuth, --rotate), make it smaller, use rampart_walls = split, or go without: --rampart "
-          "off",
-          size.x, size.y, bed.x, bed.y));
+          "no room for the rampart, the wall that keeps the colours apart: it needs X {:.1f} to {:.1f}, Y {:.1f} to "
+          "{:.1f} mm, all nozzles reach X {:.1f} to {:.1f}, Y {:.1f} to {:.1f} mm; move the part (--center), turn it "
+          "(--rotate, --azimuth), make it smaller (--scale), or go without: --rampart off",
+          walls_mm.min.x, walls_mm.max.x, walls_mm.min.y, walls_mm.max.y, room_mm.min.x, room_mm.max.x, room_mm.min.y,
+          room_mm.max.y));
     }
 }
 
@@ -130,8 +141,7 @@ std::vector<Path> PrintedRampart::paths(int layer) const {
   }
   std::vector<Path> own;
   if (split_) {
-    const Vec2 to_second = offset_mm(config_, use_.extruders[1]) - offset_mm(config_, use_.extruders[0]);
-    own = half_wall_paths(walls.front(), {printers[0], printers[1]}, to_second, middle_mm_);
+    own = half_wall_paths(walls.front(), {printers[0], printers[1]}, to_second_mm(config_, use_), middle_mm_);
   } else {
     own = wall_paths(walls, printers);
   }

@@ -26,9 +26,6 @@ struct Use {
 /// Conforming, vertical or off: what the print gets. Off for one extruder alone.
 RampartShape rampart_shape(const Config& config, const Use& use);
 
-/// How far the rampart reaches beyond the part in the first layer, with its brim; 0 where there is none.
-double rampart_reach_mm(const Config& config, const Use& use);
-
 /// The rampart of a print, up to the last layer in which an idle nozzle is hot.
 class PrintedRampart {
  public:

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int angle_count = 360;
 constexpr double same_exposure = 0.25;        // of the least: smears follow it no closer
+constexpr double worth_a_turn = 0.4;          // likewise: below it the part stays as it is
 constexpr double negligible_exposure = 0.01;  // of the largest
 constexpr double same_interference = 1e-3;    // share of the part
 
@@ -103,8 +104,9 @@ Azimuths azimuths(const Slices& slices, const AzimuthOptions& options) {
     for (int a = half; a < angle_count; ++a)
       result.interference_mm3[std::size_t(a)] = result.interference_mm3[std::size_t(a - half)];
   }
-  result.best_deg =
-      least(result.exposure_s, result.fits, same_exposure, negligible_exposure * std::ranges::max(result.exposure_s));
+  const double negligible_s = negligible_exposure * std::ranges::max(result.exposure_s);
+  const auto smallest_turn = [&](double share) { return least(result.exposure_s, result.fits, share, negligible_s); };
+  result.best_deg = smallest_turn(worth_a_turn) == 0 ? 0 : smallest_turn(same_exposure);
   result.least_interference_deg = least(result.interference_mm3, result.fits, 0, same_interference * result.part_mm3);
   return result;
 }

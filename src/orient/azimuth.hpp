@@ -49,8 +49,8 @@ struct Azimuths {
   double part_mm3 = 0;
 
   /// Of those that fit: of least exposure, give or take a quarter of it and 1 % of the largest (smears follow it no
-  /// closer); and of least interference, give or take 0.1 % of the part's volume. Of equals the smallest turn, positive
-  /// first, in (-180, 180]. Nothing where none fits.
+  /// closer; 0 is good enough up to four tenths); and of least interference, give or take 0.1 % of the part's volume.
+  /// Of equals the smallest turn, positive first, in (-180, 180]. Nothing where none fits.
   std::optional<int> best_deg;
   std::optional<int> least_interference_deg;
 };

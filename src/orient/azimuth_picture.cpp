@@ -39,35 +39,46 @@ void compass(Canvas& canvas, const Azimuths& azimuths) {
   }
 }
 
-void curve(Canvas& canvas, const std::vector<double>& values, const std::optional<int>& best, Colour colour) {
+/// The disc of the choice lies on the curve; that of the second is smaller, so that both are seen.
+void curve(Canvas& canvas, const std::vector<double>& values, const std::optional<int>& best, double size_mm,
+           Colour colour) {
   const double largest = std::max(std::ranges::max(values), 1e-9);
   std::vector<Vec2> points;
   for (std::size_t a = 0; a < values.size(); ++a) points.push_back(at(double(a), radius * values[a] / largest));
   canvas.line(points, 1.2, colour, true);
   if (!best) return;
-  canvas.line(std::vector<Vec2>{{0, 0}, at(*best, radius)}, 0.8, colour);
-  canvas.disc(at(*best, radius), 2.5, colour);
+  const Vec2 mark = at(*best, radius * values[std::size_t((*best + 360) % 360)] / largest);
+  canvas.line(std::vector<Vec2>{{0, 0}, at(*best, radius)}, 0.4, colour);
+  canvas.disc(mark, size_mm, colour);
 }
 
 void legend(Canvas& canvas, double y, std::string_view name, std::string_view unit, const std::vector<double>& values,
             const std::optional<int>& best, Colour colour) {
   const double left = -radius - 20;
   canvas.line(std::vector<Vec2>{{left, y + 2}, {left + 12, y + 2}}, 1.2, colour);
-  std::string text = fmt::format("{}: not turned {:.1f} {}", name, values[0], unit);
-  if (best) text += fmt::format(", at {}\u00B0 {:.1f} {}", *best, values[std::size_t((*best + 360) % 360)], unit);
+  std::string text =
+      fmt::format("{}: outer ring {:.1f} {}, not turned {:.1f}", name, std::ranges::max(values), unit, values[0]);
+  if (best) text += fmt::format(", at {}\u00B0 {:.1f}", *best, values[std::size_t((*best + 360) % 360)]);
   canvas.text({left + 16, y}, text_height, text, ink);
+}
+
+void legend_of_grey(Canvas& canvas, double y) {
+  const double left = -radius - 20;
+  canvas.fill(std::vector<std::vector<Vec2>>{{{left, y}, {left + 12, y}, {left + 12, y + 4}, {left, y + 4}}}, no_room);
+  canvas.text({left + 16, y}, text_height, "no room on the bed", ink);
 }
 
 }  // namespace
 
 std::string azimuth_svg(const Azimuths& azimuths) {
-  Canvas canvas({{-radius - 25, -radius - 50}, {radius + 45, radius + 20}}, 3);
+  Canvas canvas({{-radius - 25, -radius - 60}, {radius + 65, radius + 20}}, 3);
   compass(canvas, azimuths);
-  curve(canvas, azimuths.interference_mm3, azimuths.least_interference_deg, interference_colour);
-  curve(canvas, azimuths.exposure_s, azimuths.best_deg, exposure_colour);
+  curve(canvas, azimuths.interference_mm3, azimuths.least_interference_deg, 3.5, interference_colour);
+  curve(canvas, azimuths.exposure_s, azimuths.best_deg, 2.2, exposure_colour);
   legend(canvas, -radius - 28, "exposure", "s", azimuths.exposure_s, azimuths.best_deg, exposure_colour);
   legend(canvas, -radius - 38, "interference", "mm3", azimuths.interference_mm3, azimuths.least_interference_deg,
          interference_colour);
+  if (std::ranges::find(azimuths.fits, 0) != azimuths.fits.end()) legend_of_grey(canvas, -radius - 48);
   return canvas.svg();
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -188,6 +189,23 @@ TEST(Azimuth, IsTheSmallestTurnOfEquals) {
   // A bar that must turn by 30 degrees either way turns to the left.
   const Slices bar = drawn_slices({rectangle({0, 0}, {60, 10}), far_dot}, 5);
   EXPECT_GT(azimuths(bar, options_for({{0, 0}, {20, 0}})).best_deg.value(), 0);
+}
+
+TEST(Azimuth, IsNoTurnWhereATurnBringsLittle) {
+  int not_worth_it = 0;
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const Azimuths found = azimuths(random_blobs(2, 2, seed), options_for({{0, 0}, {8, 0}}));
+    const double least = std::ranges::min(found.exposure_s), all = std::ranges::max(found.exposure_s);
+    const double chosen = found.exposure_s[std::size_t((*found.best_deg + 360) % 360)];
+    if (found.exposure_s[0] <= 1.4 * least + 0.01 * all) {
+      EXPECT_EQ(found.best_deg, 0);
+      not_worth_it += found.exposure_s[0] > 1.25 * least + 0.01 * all;
+    } else {
+      EXPECT_LE(chosen, 1.25 * least + 0.01 * all);
+    }
+  }
+  EXPECT_GT(not_worth_it, 0) << "no seed shows the rule";
 }
 
 TEST(Azimuth, IsOneThatHasRoom) {

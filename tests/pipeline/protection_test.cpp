@@ -77,6 +77,28 @@ TEST(Protection, NozzlesThatLeaveThePrintNeedNone) {
   }
 }
 
+TEST(Protection, NozzlesThatTakeEachOthersPlaceHaveAWallEach) {
+  const TestFolder folder;
+  Config config = config_of({.printer = "klipper-idex"});
+  config.rampart = RampartShape::conforming;
+  const Sliced result = sliced(request_for(two_blocks(folder, 30, 20, 2), config, folder.path("out.gcode")));
+  std::map<int, double> wall_mm;
+  for (const PrintedRoad& r : replayed(result.text, config).roads)
+    if (r.layer > 0 && r.role == "Skirt/Brim") wall_mm[r.tool] += distance(r.from, r.to);
+  ASSERT_EQ(wall_mm.size(), 2U);
+  EXPECT_GT(wall_mm[1], wall_mm[0] + 20) << "the outer one goes all around the inner one";
+}
+
+TEST(Protection, TheBrimCountsAsTheRamparts) {
+  const TestFolder folder;
+  const auto grams = [&](const std::string& width) {
+    const Config config = replicator({"rampart_brim_width=" + width});
+    return sliced(request_for(two_blocks(folder, 30, 20, 2), config, folder.path("out.gcode")))
+        .summary.protection.rampart_g;
+  };
+  EXPECT_GT(grams("8"), grams("0") + 0.2);
+}
+
 TEST(Protection, ABarIsTurnedUntilTheOtherNozzleHoversBesideIt) {
   // 70 x 10 mm, nozzles 33 mm apart: nothing is met from asin(10 / 33) on, 17.6 degrees.
   const TestFolder folder;
@@ -118,6 +140,7 @@ TEST(Protection, ARampartWithoutRoomIsRefusedWithWhatToDo) {
   const TestFolder folder;
   const SliceRequest request = request_for(two_blocks(folder, 224, 144, 1), replicator(), folder.path("out.gcode"));
   EXPECT_ERROR(slice(request), "--rampart off");
+  EXPECT_ERROR(slice(request), "--center");
   EXPECT_FALSE(std::filesystem::exists(request.output));
 }
 

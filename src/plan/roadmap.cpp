@@ -1,0 +1,247 @@
+#include "plan/roadmap.hpp"
+
+#include <algorithm>
+#include <boost/polygon/voronoi.hpp>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace cleancolor {
+namespace {
+
+constexpr double unit_per_mm = 1000;  // of the triangulation's whole numbers
+constexpr double field_mm = 0.5;      // cells of the distance field
+constexpr int samples_a_stretch = 4;
+constexpr double ridge_mm = 2.5;  // nearest shapes this far apart: a way between two
+
+/// Nodes by place: one at each thousandth of a millimetre.
+class Nodes {
+ public:
+  explicit Nodes(Roadmap& map) : map_(map) {}
+  std::uint32_t add(Vec2 p) {
+    map_.nodes_mm.push_back(p);
+    return std::uint32_t(map_.nodes_mm.size() - 1);
+  }
+
+ private:
+  Roadmap& map_;
+};
+
+/// The places of a closed path where it can be entered.
+void add_entries(const Path& path, Vec2 offset_mm, const TravelCost& cost, const RoadmapOptions& options, Nodes& nodes,
+                 std::vector<Entry>& entries) {
+  const double stretch = options.spacing_mm, sample = stretch / samples_a_stretch;
+  double next = 0, way = 0;  // of the next sample; of the segment's begin
+  int taken = 0;
+  Entry best;
+  double best_cost = 0;
+  const auto close_stretch = [&] {
+    if (taken == 0) return;
+    best.node = nodes.add(best.at_mm - offset_mm);
+    entries.push_back(best);
+    taken = 0;
+  };
+  for (std::size_t i = 0; i < path.segments(); ++i) {
+    const Vec2 a = path.points[i], b = path.points[(i + 1) % path.points.size()];
+    const double length = distance(a, b);
+    for (; next < way + length; next += sample) {
+      const Vec2 p = length > 0 ? lerp(a, b, (next - way) / length) : a;
+      const double c = cost.seam(p);
+      if (taken == 0 || c < best_cost) best = {0, std::uint32_t(i), p}, best_cost = c;
+      if (++taken == samples_a_stretch) close_stretch();
+    }
+    way += length;
+  }
+  close_stretch();
+}
+
+/// A field of distances to what must not be crossed, in the carriage's frame.
+class Field {
+ public:
+  Field(const TravelCost& cost, const Box<Vec2>& box) : origin_(box.min) {
+    columns_ = int(box.size().x / field_mm) + 1;
+    rows_ = int(box.size().y / field_mm) + 1;
+    nearest_.assign(std::size_t(columns_) * std::size_t(rows_), none);
+    for (int y = 0; y < rows_; ++y)
+      for (int x = 0; x < columns_; ++x)
+        if (is_barred(cost, place(x, y))) nearest_[index(x, y)] = std::int32_t(index(x, y));
+    sweep();
+  }
+
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  Vec2 place(int x, int y) const { return origin_ + Vec2{x + 0.5, y + 0.5} * field_mm; }
+  /// In mm; infinite where nothing is barred.
+  double distance_mm(int x, int y) const {
+    const std::int32_t n = nearest_[index(x, y)];
+    return n == none ? INFINITY : field_mm * std::sqrt(double(squared(x, y, n)));
+  }
+  /// Whether the nearest barred places of this cell and of one of its neighbours lie far apart.
+  bool is_between(int x, int y) const {
+    const std::int32_t n = nearest_[index(x, y)];
+    if (n == none) return false;
+    for (const auto& [i, j] : {std::pair{x + 1, y}, {x, y + 1}}) {
+      if (i >= columns_ || j >= rows_) continue;
+      const std::int32_t m = nearest_[index(i, j)];
+      const double dx = n % columns_ - m % columns_, dy = n / columns_ - m / columns_;
+      if (field_mm * std::hypot(dx, dy) > ridge_mm) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::int32_t none = -1;
+
+  /// Whether a nozzle that stands here is over visible plastic of another colour.
+  static bool is_barred(const TravelCost& cost, Vec2 p) {
+    for (const auto& n : cost.nozzles()) {
+      const LayerMap::Cell cell = cost.map().at(p + n.offset_mm);
+      if (cell.visibility > 0 && cell.extruder != n.extruder) return true;
+    }
+    return false;
+  }
+  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(columns_) + std::size_t(x); }
+  int squared(int x, int y, std::int32_t to) const {
+    const int dx = x - to % columns_, dy = y - to / columns_;
+    return dx * dx + dy * dy;
+  }
+  void take(int x, int y, int i, int j) {
+    if (i < 0 || j < 0 || i >= columns_ || j >= rows_) return;
+    const std::int32_t other = nearest_[index(i, j)];
+    std::int32_t& own = nearest_[index(x, y)];
+    if (other != none && (own == none || squared(x, y, other) < squared(x, y, own))) own = other;
+  }
+  /// Every cell asks its neighbours, forwards and back (Danielsson): off by less than a cell.
+  void sweep() {
+    for (int y = 0; y < rows_; ++y) {
+      for (int x = 0; x < columns_; ++x) take(x, y, x - 1, y), take(x, y, x, y - 1), take(x, y, x - 1, y - 1);
+      for (int x = columns_; x-- > 0;) take(x, y, x + 1, y), take(x, y, x + 1, y - 1);
+    }
+    for (int y = rows_; y-- > 0;) {
+      for (int x = columns_; x-- > 0;) take(x, y, x + 1, y), take(x, y, x, y + 1), take(x, y, x + 1, y + 1);
+      for (int x = 0; x < columns_; ++x) take(x, y, x - 1, y), take(x, y, x - 1, y + 1);
+    }
+  }
+
+  Vec2 origin_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::int32_t> nearest_;  // the barred cell
+};
+
+/// Ways around shapes and between them, thinned to one node for each square of pathway_mm.
+void add_pathways(const TravelCost& cost, const Box<Vec2>& box, const RoadmapOptions& options, Nodes& nodes) {
+  const Field field(cost, box);
+  const int square = std::max(1, int(options.pathway_mm / field_mm));
+  const int squares = field.columns() / square + 1;
+  std::vector<char> around(std::size_t(squares)), between(std::size_t(squares));
+  for (int y = 0; y < field.rows(); ++y) {
+    if (y % square == 0) std::ranges::fill(around, 0), std::ranges::fill(between, 0);
+    for (int x = 0; x < field.columns(); ++x) {
+      const double d = field.distance_mm(x, y);
+      if (d == 0) continue;
+      const auto s = std::size_t(x / square);
+      if (!around[s] && std::abs(d - options.clearance_mm) < field_mm / 2) {
+        around[s] = 1;
+        nodes.add(field.place(x, y));
+      } else if (!between[s] && d < 10 * options.clearance_mm && field.is_between(x, y)) {
+        between[s] = 1;
+        nodes.add(field.place(x, y));
+      }
+    }
+  }
+}
+
+/// Along walls, for each nozzle.
+void add_wall(const Path& wall, const TravelCost& cost, const RoadmapOptions& options, Nodes& nodes) {
+  double rest = 0;
+  for (std::size_t i = 0; i < wall.segments(); ++i) {
+    const Vec2 a = wall.points[i], b = wall.points[(i + 1) % wall.points.size()];
+    const double length = distance(a, b);
+    for (; rest < length; rest += 2 * options.pathway_mm)
+      for (const auto& n : cost.nozzles()) nodes.add(lerp(a, b, rest / length) - n.offset_mm);
+    rest -= length;
+  }
+}
+
+/// Edges of the Delaunay triangulation; nodes at one place are linked in a row.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> delaunay(const std::vector<Vec2>& nodes_mm) {
+  using Site = boost::polygon::point_data<int>;
+  std::vector<std::uint32_t> order(nodes_mm.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto site = [&](std::uint32_t i) {
+    return Site(int(std::lround(nodes_mm[i].x * unit_per_mm)), int(std::lround(nodes_mm[i].y * unit_per_mm)));
+  };
+  std::vector<Site> all;
+  for (const std::uint32_t i : order) all.push_back(site(i));
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    return std::tuple(all[a].x(), all[a].y(), a) < std::tuple(all[b].x(), all[b].y(), b);
+  });
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  std::vector<Site> sites;
+  std::vector<std::uint32_t> node;  // of each site
+  for (const std::uint32_t i : order) {
+    if (!sites.empty() && sites.back() == all[i]) {
+      edges.emplace_back(node.back(), i);
+    } else {
+      sites.push_back(all[i]);
+      node.push_back(i);
+    }
+  }
+  boost::polygon::voronoi_diagram<double> diagram;
+  boost::polygon::construct_voronoi(sites.begin(), sites.end(), &diagram);
+  for (const auto& edge : diagram.edges()) {
+    const std::size_t a = edge.cell()->source_index(), b = edge.twin()->cell()->source_index();
+    if (a < b) edges.emplace_back(node[a], node[b]);
+  }
+  return edges;
+}
+
+void add_arcs(Roadmap& map, const TravelCost& cost) {
+  const auto edges = delaunay(map.nodes_mm);
+  map.first_arc.assign(map.nodes_mm.size() + 1, 0);
+  for (const auto& [a, b] : edges) ++map.first_arc[a + 1], ++map.first_arc[b + 1];
+  std::partial_sum(map.first_arc.begin(), map.first_arc.end(), map.first_arc.begin());
+  map.arcs.resize(2 * edges.size());
+  std::vector<std::uint32_t> next(map.first_arc.begin(), map.first_arc.end() - 1);
+  for (const auto& [a, b] : edges) {
+    const auto c = float(cost.way(map.nodes_mm[a], map.nodes_mm[b]));
+    map.arcs[next[a]++] = {b, c};
+    map.arcs[next[b]++] = {a, c};
+  }
+}
+
+}  // namespace
+
+Roadmap roadmap(std::span<const Path> paths, const TravelCost& cost, const RoadmapOptions& options) {
+  Roadmap map;
+  Nodes nodes(map);
+  std::vector<Vec2> offset_mm;
+  for (const auto& n : cost.nozzles()) {
+    offset_mm.resize(std::max(offset_mm.size(), std::size_t(n.extruder) + 1));
+    offset_mm[std::size_t(n.extruder)] = n.offset_mm;
+  }
+  Box<Vec2> box;
+  for (const Path& path : paths) {
+    const Vec2 offset = offset_mm[std::size_t(path.extruder)];
+    std::vector<Entry>& entries = map.entries.emplace_back();
+    if (!path.closed) {
+      entries.push_back({nodes.add(path.points.front() - offset), 0, path.points.front()});
+      entries.push_back(
+          {nodes.add(path.points.back() - offset), std::uint32_t(path.segments() - 1), path.points.back()});
+    } else if (path.road().role == Role::rampart) {
+      entries.push_back({nodes.add(path.start() - offset), 0, path.start()});
+    } else {
+      add_entries(path, offset, cost, options, nodes, entries);
+    }
+    for (const Vec2 p : path.points) box.add(p - offset);
+  }
+  if (box.empty()) return map;
+  const Vec2 margin{options.margin_mm, options.margin_mm};
+  add_pathways(cost, {box.min - margin, box.max + margin}, options, nodes);
+  for (const Path& path : paths)
+    if (path.road().role == Role::rampart) add_wall(path, cost, options, nodes);
+  add_arcs(map, cost);
+  return map;
+}
+
+}  // namespace cleancolor
