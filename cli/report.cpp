@@ -15,17 +15,13 @@ std::string turn_text(const std::optional<int>& degrees) {
   return degrees ? fmt::format("{} degrees", *degrees) : "none has room";
 }
 
-double at(const std::vector<double>& curve, int degrees) {
-  return curve[std::size_t((degrees + 360) % 360)];
-}
-
 std::string protection_table(const Protection& p) {
   std::string text;
   if (p.azimuths && p.azimuths->best_deg)
     text += fmt::format(
         "{:<14}{:g} degrees: idle nozzles hover for {:.1f} s over visible plastic of another colour, "
         "not turned {:.1f} s\n",
-        "azimuth", p.azimuth_deg, at(p.azimuths->exposure_s, int(p.azimuth_deg)), p.azimuths->exposure_s[0]);
+        "azimuth", p.azimuth_deg, at_azimuth(p.azimuths->exposure_s, int(p.azimuth_deg)), p.azimuths->exposure_s[0]);
   else if (p.azimuth_deg != 0)
     text += fmt::format("{:<14}{:g} degrees, as asked for\n", "azimuth", p.azimuth_deg);
   if (p.rampart != RampartShape::off)
@@ -80,8 +76,8 @@ std::string azimuth_table(const Azimuths& azimuths) {
   const auto row = [&](std::string_view name, const std::optional<int>& degrees) {
     table += fmt::format("{:<22}{:>16}", name, turn_text(degrees));
     if (degrees)
-      table +=
-          fmt::format("{:>20.1f}{:>24.1f}", at(azimuths.exposure_s, *degrees), at(azimuths.interference_mm3, *degrees));
+      table += fmt::format("{:>20.1f}{:>24.1f}", at_azimuth(azimuths.exposure_s, *degrees),
+                           at_azimuth(azimuths.interference_mm3, *degrees));
     table += '\n';
   };
   row("as it is", 0);

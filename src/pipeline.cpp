@@ -83,11 +83,18 @@ Error too_thin(const SliceRequest& request, int extruder) {
 }
 
 /// The walls of the rampart prime the nozzles, and stand where a skirt would; a brim stays within them.
-Config without_priming(Config config) {
+Config without_priming(Config config, const Progress& progress) {
   config.skirts = 0;
   config.prime_line_length_mm = 0;
-  config.brim_width_mm = std::min(config.brim_width_mm, config.ooze_shield_dist_mm - config.brim_separation_mm -
-                                                            config.extruders.front().nozzle_diameter_mm);
+  const double room_mm = std::max(
+      0., config.ooze_shield_dist_mm - config.brim_separation_mm - config.extruders.front().nozzle_diameter_mm);
+  if (config.brim_type != BrimType::no_brim && config.brim_width_mm > room_mm) {
+    progress.warn(
+        fmt::format("brim_width: {:.1f} instead of {:.1f} mm, for the rampart stands around the part; a larger "
+                    "ooze_shield_dist leaves room for more",
+                    room_mm, config.brim_width_mm));
+    config.brim_width_mm = room_mm;
+  }
   return config;
 }
 
@@ -136,7 +143,7 @@ class Print {
           fmt::format("{}: nothing of the model is left in the first layer (z = {:.2f} mm): it stands on a tip or an "
                       "edge; turn it so that it lies flat, or cut a little off",
                       request.files.front().path.filename().string(), slices.slabs.front().slice_z_mm()));
-    bed_ = bed_paths(slices, use.extruders, rampart_.empty() ? config_ : without_priming(config_), progress);
+    bed_ = bed_paths(slices, use.extruders, rampart_.empty() ? config_ : without_priming(config_, progress), progress);
     state_.extruder = info_.initial_extruder = use.extruders.front();
     coverage_.resize(info_.last_layer.size());
   }

@@ -54,6 +54,15 @@ std::size_t wall_count(const Config& config, const Use& use) {
   return is_split(config, use) ? 1 : use.extruders.size();
 }
 
+/// How far the rampart reaches beyond the part; 0 where there is none. Its brim ends where the bed does.
+double rampart_reach_mm(const Config& config, const Use& use) {
+  if (rampart_shape(config, use) == RampartShape::off) return 0;
+  double nozzle_mm = 0;
+  for (const int e : use.extruders)
+    nozzle_mm = std::max(nozzle_mm, config.extruders[std::size_t(e)].nozzle_diameter_mm);
+  return config.ooze_shield_dist_mm + double(wall_count(config, use) - 1) * config.rampart_gap_mm + nozzle_mm;
+}
+
 }  // namespace
 
 Use::Use(const Slices& slices) : last_layer(slices.regions.empty() ? 0 : slices.regions.front().size()) {
@@ -68,13 +77,6 @@ RampartShape rampart_shape(const Config& config, const Use& use) {
   if (use.extruders.size() < 2) return RampartShape::off;
   if (config.rampart != RampartShape::automatic) return config.rampart;
   return config.idle_nozzle == IdleNozzle::same_height ? RampartShape::conforming : RampartShape::off;
-}
-
-/// How far the rampart reaches beyond the part; 0 where there is none. Its brim ends where the bed does.
-static double rampart_reach_mm(const Config& config, const Use& use) {
-  if (rampart_shape(config, use) == RampartShape::off) return 0;
-  const double outermost = config.ooze_shield_dist_mm + double(wall_count(config, use) - 1) * config.rampart_gap_mm;
-  return outermost + config.extruders.front().nozzle_diameter_mm;
 }
 
 PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Config& config, int threads)
@@ -94,10 +96,6 @@ PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Confi
                       .max_overhang_deg = config.rampart_max_overhang_deg,
                       .threads = threads});
   split_ = is_split(config, use);
-  if (split_) {
-    const Vec2 to_second = to_second_mm(config, use);
-    middle_mm_ = dot(bounds_mm(rampart_.walls.front().front()).center(), to_second * (1 / length(to_second)));
-  }
   require_reach();
 }
 
@@ -121,8 +119,11 @@ std::vector<Path> PrintedRampart::paths(int layer) const {
   const std::vector<Polygons>& walls = rampart_.walls[std::size_t(layer)];
   const Slab& slab = slices_.slabs[std::size_t(layer)];
   const auto& regions = slices_.regions[std::size_t(layer)];
+  // Whoever prints here anyway, else one whose nozzle is still hot.
   const auto prints = [&](int e) { return layer == 0 || !regions[std::size_t(e)].empty(); };
-  const auto any = std::ranges::find_if(use_.extruders, prints);
+  const auto is_hot = [&](int e) { return *use_.last_layer[std::size_t(e)] >= layer; };
+  auto any = std::ranges::find_if(use_.extruders, prints);
+  if (any == use_.extruders.end()) any = std::ranges::find_if(use_.extruders, is_hot);
   const int stand_in = any != use_.extruders.end() ? *any : use_.extruders.front();
   std::vector<WallPrinter> printers;
   for (const int e : use_.extruders) {
@@ -133,15 +134,15 @@ std::vector<Path> PrintedRampart::paths(int layer) const {
   if (layer == 0) {
     std::vector<WallPrinter> brims = printers;
     for (WallPrinter& brim : brims) brim.road = roads(config_, brim.extruder, 0, slab).skirt_brim;
-    paths = wall_brims(walls, brims, config_.rampart_brim_width_mm, spacing_mm(brims.front().road));
+    double spacing = 0;
+    for (const WallPrinter& brim : brims) spacing = std::max(spacing, spacing_mm(brim.road));
+    paths = wall_brims(walls, brims, config_.rampart_brim_width_mm, config_.rampart_gap_mm, spacing);
     const Polygons room = common_reach(config_, use_.extruders);
-    std::erase_if(paths, [&](const Path& loop) {
-      return !std::ranges::all_of(loop.points, [&](Vec2 p) { return contains(room, to_nm(p)); });
-    });
+    std::erase_if(paths, [&](const Path& loop) { return !within(loop, room); });
   }
   std::vector<Path> own;
   if (split_) {
-    own = half_wall_paths(walls.front(), {printers[0], printers[1]}, to_second_mm(config_, use_), middle_mm_);
+    own = half_wall_paths(walls.front(), {printers[0], printers[1]}, to_second_mm(config_, use_));
   } else {
     own = wall_paths(walls, printers);
   }
@@ -151,7 +152,10 @@ std::vector<Path> PrintedRampart::paths(int layer) const {
 
 RampartSite PrintedRampart::site(int layer) const {
   if (layer >= int(rampart_.walls.size())) return {};
-  return {use_.extruders, slices_.outlines[std::size_t(layer)]};
+  std::vector<int> hot;
+  for (const int e : use_.extruders)
+    if (!config_.heater_off_after_last_use || *use_.last_layer[std::size_t(e)] >= layer) hot.push_back(e);
+  return {std::move(hot), slices_.outlines[std::size_t(layer)]};
 }
 
 Azimuths azimuths_of_print(const Slices& slices, const Use& use, const Config& config, std::optional<Vec2> center_mm,
@@ -169,15 +173,14 @@ Azimuths azimuths_of_print(const Slices& slices, const Use& use, const Config& c
   const std::vector<Vec2> hull = to_mm(convex_hull(all));
   const double margin_mm = rampart_reach_mm(config, use);
   options.fits = [=](int degrees) {
-    const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
-    std::vector<Vec2> turned;
+    std::vector<Vec2> points;
     Box<Vec2> box;
     for (const Vec2 p : hull) {
-      turned.push_back({c * p.x - s * p.y, s * p.x + c * p.y});
-      box.add(turned.back());
+      points.push_back(turned(p, degrees * std::numbers::pi / 180));
+      box.add(points.back());
     }
     Ring ring;
-    for (const Vec2 p : turned) ring.push_back(to_nm(p - box.center() + target));
+    for (const Vec2 p : points) ring.push_back(to_nm(p - box.center() + target));
     return difference(offset({ring}, margin_mm, Corners::round), room).empty();
   };
   return azimuths(slices, options);

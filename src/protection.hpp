@@ -29,13 +29,13 @@ RampartShape rampart_shape(const Config& config, const Use& use);
 /// The rampart of a print, up to the last layer in which an idle nozzle is hot.
 class PrintedRampart {
  public:
-  /// Throws Error where a wall would leave the reach of its nozzle.
+  /// Throws Error where a wall would leave the area that all needed nozzles reach.
   PrintedRampart(const Slices& slices, const Use& use, const Config& config, int threads);
 
   bool empty() const { return rampart_.walls.empty(); }
 
   /// Walls of the layer, and their brim in the first one. A wall belongs to its own extruder where that prints in this
-  /// layer, or is primed in it (the first); else to one that does.
+  /// layer, or is primed in it (the first); else to one that does, or is hot.
   std::vector<Path> paths(int layer) const;
 
   /// What the order must know of the layer.
@@ -48,7 +48,6 @@ class PrintedRampart {
   const Use& use_;
   const Config& config_;
   bool split_ = false;
-  double middle_mm_ = 0;  // of the split
   Rampart rampart_;
 };
 

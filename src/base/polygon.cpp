@@ -235,6 +235,17 @@ Box<Vec2> bounds_mm(const Polygons& region) {
   return box;
 }
 
+Box<Vec2> bounds_mm(std::span<const Polygons> regions) {
+  Box<Vec2> box;
+  for (const Polygons& region : regions) {
+    const Box<Vec2> own = bounds_mm(region);
+    if (own.empty()) continue;
+    box.add(own.min);
+    box.add(own.max);
+  }
+  return box;
+}
+
 bool contains(const Polygons& region, Point p) {
   // Outlines count up, holes count down: inside where they do not cancel.
   int depth = 0;

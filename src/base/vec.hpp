@@ -36,6 +36,11 @@ inline double distance(Vec2 a, Vec2 b) {
 constexpr Vec2 lerp(Vec2 a, Vec2 b, double t) {
   return a + (b - a) * t;
 }
+/// Turned about the origin, counterclockwise.
+inline Vec2 turned(Vec2 v, double radians) {
+  const double c = std::cos(radians), s = std::sin(radians);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
 
 struct Vec3 {
   double x = 0;

@@ -26,26 +26,17 @@ std::vector<int> turns() {
   return all;
 }
 
-std::size_t slot(int turn) {
-  return std::size_t((turn + angle_count) % angle_count);
-}
-
 /// The smallest turn that fits and is as good as the best that fits, give or take.
 std::optional<int> least(const std::vector<double>& curve, const std::vector<char>& fits, double share,
                          double tolerance) {
   std::optional<int> best;
   for (const int turn : turns())
-    if (fits[slot(turn)] && (!best || curve[slot(turn)] < curve[slot(*best)])) best = turn;
+    if (fits[azimuth_slot(turn)] && (!best || at_azimuth(curve, turn) < at_azimuth(curve, *best))) best = turn;
   if (!best) return best;
-  const double bound = curve[slot(*best)] * (1 + share) + tolerance;
-  const auto good = [&](int turn) { return fits[slot(turn)] && curve[slot(turn)] <= bound; };
+  const double bound = at_azimuth(curve, *best) * (1 + share) + tolerance;
+  const auto good = [&](int turn) { return fits[azimuth_slot(turn)] && at_azimuth(curve, turn) <= bound; };
   const std::vector<int> all = turns();
   return *std::ranges::find_if(all, good);
-}
-
-Vec2 turned(Vec2 v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
 /// Ordered pairs of extruders that print something.

@@ -42,6 +42,14 @@ struct AzimuthOptions {
   int threads = 1;
 };
 
+/// Where the curves keep a turn of so many degrees, in (-180, 180] or [0, 360).
+constexpr std::size_t azimuth_slot(int degrees) {
+  return std::size_t((degrees + 360) % 360);
+}
+inline double at_azimuth(const std::vector<double>& curve, int degrees) {
+  return curve[azimuth_slot(degrees)];
+}
+
 struct Azimuths {
   std::vector<double> interference_mm3;  // [360]: turned by 0, 1, ... 359 degrees, counterclockwise seen from above
   std::vector<double> exposure_s;        // likewise: visibility x seconds

@@ -47,7 +47,7 @@ void curve(Canvas& canvas, const std::vector<double>& values, const std::optiona
   for (std::size_t a = 0; a < values.size(); ++a) points.push_back(at(double(a), radius * values[a] / largest));
   canvas.line(points, 1.2, colour, true);
   if (!best) return;
-  const Vec2 mark = at(*best, radius * values[std::size_t((*best + 360) % 360)] / largest);
+  const Vec2 mark = at(*best, radius * at_azimuth(values, *best) / largest);
   canvas.line(std::vector<Vec2>{{0, 0}, at(*best, radius)}, 0.4, colour);
   canvas.disc(mark, size_mm, colour);
 }
@@ -58,7 +58,7 @@ void legend(Canvas& canvas, double y, std::string_view name, std::string_view un
   canvas.line(std::vector<Vec2>{{left, y + 2}, {left + 12, y + 2}}, 1.2, colour);
   std::string text =
       fmt::format("{}: outer ring {:.1f} {}, not turned {:.1f}", name, std::ranges::max(values), unit, values[0]);
-  if (best) text += fmt::format(", at {}\u00B0 {:.1f}", *best, values[std::size_t((*best + 360) % 360)]);
+  if (best) text += fmt::format(", at {}\u00B0 {:.1f}", *best, at_azimuth(values, *best));
   canvas.text({left + 16, y}, text_height, text, ink);
 }
 

@@ -28,12 +28,7 @@ std::vector<Vec3> directions() {
 }  // namespace
 
 ExposureMap::ExposureMap(const Slices& slices, const std::vector<Pace>& pace, int threads) : pace_(pace) {
-  for (const Polygons& outline : slices.outlines) {
-    const Box<Vec2> b = bounds_mm(outline);
-    if (b.empty()) continue;
-    box_.add(b.min);
-    box_.add(b.max);
-  }
+  box_ = bounds_mm(slices.outlines);
   if (box_.empty()) return;
   fill(slices, threads);
   mark_shells(pace, threads);

@@ -23,13 +23,7 @@ Interference::Interference(const Slices& slices) {
     groups.back().last = k;
     groups.back().height_mm += slices.slabs[k].height_mm;
   }
-  Box<Vec2> box;
-  for (const Polygons& outline : slices.outlines) {
-    const Box<Vec2> b = bounds_mm(outline);
-    if (b.empty()) continue;
-    box.add(b.min);
-    box.add(b.max);
-  }
+  const Box<Vec2> box = bounds_mm(slices.outlines);
   if (box.empty()) return;
   const double depth = box.size().y;
   const double spacing = std::clamp(depth * double(groups.size()) / rows_in_all, finest_row_mm, coarsest_row_mm);
@@ -48,8 +42,6 @@ Interference::Interference(const Slices& slices) {
     }
     levels_.push_back(std::move(level));
   }
-  for (std::size_t k = 0; k < slices.slabs.size(); ++k)
-    for (const Polygons& region : slices.regions[k]) part_mm3_ += area_mm2(region) * slices.slabs[k].height_mm;
 }
 
 double Interference::volume_mm3(int printing, int idle, Vec2 d_mm) const {

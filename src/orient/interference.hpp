@@ -23,8 +23,6 @@ class Interference {
   /// Cost: about 0.5 ms for two extruders.  Requires: printing != idle, both extruders of the slices.
   double volume_mm3(int printing, int idle, Vec2 d_mm) const;
 
-  double part_mm3() const { return part_mm3_; }
-
  private:
   struct Level {
     double height_mm = 0;       // that it stands for
@@ -33,7 +31,6 @@ class Interference {
   };
   RowPlan plan_;
   std::vector<Level> levels_;
-  double part_mm3_ = 0;
 };
 
 }  // namespace cleancolor

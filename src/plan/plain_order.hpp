@@ -24,7 +24,7 @@ struct OrderState {
 
 /// What the walls of a rampart must know of a layer.
 struct RampartSite {
-  std::vector<int> extruders;  // whose nozzles are hot
+  std::vector<int> extruders;  // whose nozzles are still needed
   Polygons part;               // all plastic of the part
 };
 

@@ -133,7 +133,7 @@ void add_pathways(const TravelCost& cost, const Box<Vec2>& box, const RoadmapOpt
   const Field field(cost, box);
   const int square = std::max(1, int(options.pathway_mm / field_mm));
   const int squares = field.columns() / square + 1;
-  std::vector<char> around(std::size_t(squares)), between(std::size_t(squares));
+  std::vector<char> around(std::size_t(squares), 0), between(std::size_t(squares), 0);
   for (int y = 0; y < field.rows(); ++y) {
     if (y % square == 0) std::ranges::fill(around, 0), std::ranges::fill(between, 0);
     for (int x = 0; x < field.columns(); ++x) {

@@ -45,10 +45,10 @@ struct Roadmap {
 };
 
 struct RoadmapOptions {
-  double spacing_mm = 1.5;     // of entries on closed paths
-  double clearance_mm = 1.6;   // of ways around what must not be crossed
-  double pathway_mm = 2;       // between nodes of pathways
-  double margin_mm = 6;        // beyond the paths
+  double spacing_mm = 1.5;    // of entries on closed paths
+  double clearance_mm = 1.6;  // of ways around what must not be crossed
+  double pathway_mm = 2;      // between nodes of pathways
+  double margin_mm = 6;       // beyond the paths
 };
 
 /// The roadmap of a layer whose paths are printed in this order. Closed paths of the rampart are entered at their start

@@ -28,6 +28,11 @@ std::vector<Place> places_of(const Path& wall) {
 }
 
 bool cross_each_other(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  // Segments on one line have all sides 0, however far apart they lie.
+  const auto apart = [](double p, double q, double r, double s) {
+    return std::max(p, q) < std::min(r, s) || std::max(r, s) < std::min(p, q);
+  };
+  if (apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y)) return false;
   const auto side = [](Vec2 p, Vec2 q, Vec2 r) { return cross(q - p, r - p); };
   return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
 }

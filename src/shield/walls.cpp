@@ -49,34 +49,34 @@ std::vector<Path> wall_paths(std::span<const Polygons> walls, std::span<const Wa
   return paths;
 }
 
-std::vector<Path> half_wall_paths(const Polygons& wall, const std::array<WallPrinter, 2>& printers, Vec2 to_second,
-                                  double middle_mm) {
+std::vector<Path> half_wall_paths(const Polygons& wall, const std::array<WallPrinter, 2>& printers, Vec2 to_second) {
   assert(to_second != Vec2{});
   std::vector<Path> paths;
   Vec2 along = to_second * (1 / length(to_second));
   for (const WallPrinter& printer : printers) {
     for (const Ring& ring : wall) {
       const std::vector<Vec2> points = to_mm(ring);
-      const auto pieces = pieces_beyond(points, along, middle_mm - overlap_mm / 2);
-      const bool whole = pieces.size() == 1 && pieces.front().size() == points.size() && pieces.front() == points;
-      const auto first_has_it = [&](Vec2 p) { return dot(p, along) <= middle_mm + overlap_mm / 2; };
-      if (whole && &printer != &printers[0] && std::ranges::all_of(points, first_has_it)) continue;
+      const double middle = dot(bounds_mm(Polygons{ring}).center(), along);
+      const auto pieces = pieces_beyond(points, along, middle - overlap_mm / 2);
+      const bool whole = pieces.size() == 1 && pieces.front() == points;
+      if (whole && &printer != &printers[0]) continue;
       for (const std::vector<Vec2>& piece : pieces) paths.push_back(wall_path(piece, whole, printer));
     }
     along = along * -1;
-    middle_mm = -middle_mm;
   }
   return paths;
 }
 
 std::vector<Path> wall_brims(std::span<const Polygons> walls, std::span<const WallPrinter> printers, double width_mm,
-                             double spacing_mm) {
+                             double gap_mm, double spacing_mm) {
   assert(spacing_mm > 0);
   std::vector<Path> paths;
-  for (std::size_t k = 0; k < walls.size(); ++k)
-    for (int i = int(width_mm / spacing_mm); i > 0; --i)
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    const double width = k + 1 < walls.size() ? std::min(width_mm, (gap_mm - spacing_mm) / 2) : width_mm;
+    for (int i = int(width / spacing_mm); i > 0; --i)
       for (const Ring& ring : offset(walls[k], spacing_mm * i, Corners::round))
         if (ClipperLib::Orientation(ring)) paths.push_back(wall_path(to_mm(ring), true, printers[k]));
+  }
   return paths;
 }
 

@@ -20,16 +20,16 @@ struct WallPrinter {
 /// Closed paths, wall k by printers[k]; several of one wall where objects stand apart. Requires: a printer for each.
 std::vector<Path> wall_paths(std::span<const Polygons> walls, std::span<const WallPrinter> printers);
 
-/// One wall for two: printers[0] prints what lies further in the direction of `to_second` than `middle_mm` (a distance
-/// from the origin along it), printers[1] the other half; so the idle nozzle hovers beside the part, and the half that
-/// stands first is the one that the other nozzle must cross. to_second: the second nozzle as seen from the first. The
-/// halves overlap by 1 mm. A ring that does not reach the middle is one closed path.  Requires: to_second not zero.
-std::vector<Path> half_wall_paths(const Polygons& wall, const std::array<WallPrinter, 2>& printers, Vec2 to_second,
-                                  double middle_mm);
+/// One wall for two: of each ring printers[0] prints what lies further than its middle in the direction of `to_second`,
+/// printers[1] the other half; so the idle nozzle hovers beside the part, and the half that stands first is the one
+/// that the other nozzle must cross. to_second: the second nozzle as seen from the first. The halves overlap by 1 mm; a
+/// ring smaller than that is one closed path of the first.  Requires: to_second not zero.
+std::vector<Path> half_wall_paths(const Polygons& wall, const std::array<WallPrinter, 2>& printers, Vec2 to_second);
 
-/// Loops around each wall, on its outer side up to width_mm, from the outside in.
+/// Loops around each wall, on its outer side, from the outside in: up to width_mm around the outermost, up to half of
+/// gap_mm, the distance to the next wall, around the others.
 /// Requires: spacing_mm > 0, the distance of neighbouring roads.
 std::vector<Path> wall_brims(std::span<const Polygons> walls, std::span<const WallPrinter> printers, double width_mm,
-                             double spacing_mm);
+                             double gap_mm, double spacing_mm);
 
 }  // namespace cleancolor

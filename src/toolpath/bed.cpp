@@ -22,10 +22,6 @@ Path loop(const Ring& ring, const Road& road, int extruder) {
   return path;
 }
 
-bool within(const Path& path, const Polygons& area) {
-  return std::all_of(path.points.begin(), path.points.end(), [&](Vec2 p) { return contains(area, to_nm(p)); });
-}
-
 /// Outlines only: no brim and no skirt inside holes.
 Polygons outlines(const Polygons& region) {
   Polygons result;

@@ -29,6 +29,10 @@ double travel_mm(Vec2 from, const Path& path) {
   return sum + distance(from, path.start());
 }
 
+bool within(const Path& path, const Polygons& area) {
+  return std::ranges::all_of(path.points, [&](Vec2 p) { return contains(area, to_nm(p)); });
+}
+
 Path started_at(Path path, std::size_t first) {
   assert(path.closed && first < path.points.size());
   if (first == 0) return path;

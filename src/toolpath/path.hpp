@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/polygon.hpp"
 #include "base/vec.hpp"
 
 namespace cleancolor {
@@ -108,6 +109,9 @@ double volume_mm3(const Path& path);
 
 /// Length of the way from `from` to the path's start, by way of Path::travel.
 double travel_mm(Vec2 from, const Path& path);
+
+/// Whether all its points lie inside; the border counts as inside.
+bool within(const Path& path, const Polygons& area);
 
 /// The same closed path begun at points[first]; stretches turn with it.  Requires: closed; first < points.size().
 Path started_at(Path path, std::size_t first);

@@ -31,18 +31,12 @@ void fill(Voxels& v, int level, const Polygons& outline) {
 Voxels voxels_of(std::span<const Polygons> outlines, std::span<const double> height_mm,
                  const SurfaceVisibilityOptions& options, const Progress& progress) {
   assert(outlines.size() == height_mm.size());
-  Box<Vec2> box;
+  const Box<Vec2> box = bounds_mm(outlines);
   std::vector<double> bottom_mm{0};
-  for (std::size_t k = 0; k < outlines.size(); ++k) {
-    bottom_mm.push_back(bottom_mm.back() + height_mm[k]);
-    const Box<Vec2> layer = bounds_mm(outlines[k]);
-    if (layer.empty()) continue;
-    box.add(layer.min);
-    box.add(layer.max);
-  }
+  for (const double height : height_mm) bottom_mm.push_back(bottom_mm.back() + height);
   if (box.empty()) return {};
-  Voxels v = empty_voxels(box, bottom_mm.back(),
-                          {.size_mm = options.voxel_mm, .reach_mm = options.reach_mm, .most = 6e7});
+  Voxels v =
+      empty_voxels(box, bottom_mm.back(), {.size_mm = options.voxel_mm, .reach_mm = options.reach_mm, .most = 6e7});
   std::vector<std::vector<std::size_t>> layers(std::size_t(v.levels));
   for (std::size_t k = 0; k < outlines.size(); ++k) {
     const LevelRange range = v.levels_of(bottom_mm[k], bottom_mm[k + 1]);

@@ -208,6 +208,38 @@ TEST(Protection, ThreeNozzlesHaveThreeWalls) {
   EXPECT_TRUE(sliced(request).summary.protection.azimuths);
 }
 
+TEST(Protection, WallsOfALayerInWhichNobodyPrintsAreAHotNozzles) {
+  // The first ends at 2 mm, the other two leave a gap above it: the walls go on, and not by the one that is off.
+  const TestFolder folder;
+  Config config = config_of({.printer = "generic-dual-marlin"});
+  set_extruder_count(config, 3);
+  config.extruders[2].nozzle_offset_mm = {0, 20};
+  const auto two = [](double x) {
+    return joined(box_mesh({x, 0, 0}, {x + 10, 10, 2}), box_mesh({x, 0, 4}, {x + 10, 10, 6}));
+  };
+  const std::vector<std::filesystem::path> files{stl_file(folder, "a.stl", box_mesh({0, 0, 0}, {10, 10, 2})),
+                                                 stl_file(folder, "b.stl", two(10)),
+                                                 stl_file(folder, "c.stl", two(20))};
+  const Sliced result = sliced(request_for(files, config, folder.path("out.gcode")));
+  double gap_wall_mm = 0;
+  for (const PrintedRoad& r : replayed(result.text, config).roads) {
+    if (r.tool == 0) {
+      EXPECT_LT(r.z, 2.2);
+    }
+    if (r.z > 2.5 && r.z < 3.5) gap_wall_mm += distance(r.from, r.to);
+  }
+  EXPECT_GT(gap_wall_mm, 100);
+}
+
+TEST(Protection, ABrimThatTheRampartLeavesNoRoomForIsCutWithAWarning) {
+  const TestFolder folder;
+  SliceRequest request = request_for(two_blocks(folder, 30, 20, 2),
+                                     replicator({"brim_type=outer_only", "brim_width=8"}), folder.path("out.gcode"));
+  EXPECT_NE(sliced(request).warnings.find("brim_width: 1."), std::string::npos);
+  request.config.rampart = RampartShape::off;
+  EXPECT_EQ(sliced(request).warnings.find("brim_width"), std::string::npos);
+}
+
 class ProtectionOfModel : public testing::TestWithParam<const char*> {};
 
 TEST_P(ProtectionOfModel, KeepsIdleNozzlesOffAndStaysOnTheBed) {

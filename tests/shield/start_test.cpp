@@ -109,16 +109,21 @@ TEST(WallStart, ChangesNothingOfTheWall) {
 }
 
 TEST(WallStart, AStandingWallWipesFromTheFirst) {
-  const Path outer = wall_of(rectangle({-24, -14}, {24, 14}).front());
+  // The idle nozzle goes around over the part from the first to the last: only a wall on its way helps.
   const Path wall = wall_of(rectangle({-20, -10}, {20, 10}).front());
-  const WallScene scene{.idle_mm = {{30, 3}}, .part = rectangle({-18, -8}, {18, 8}), .standing = {outer}};
-  // Begun with the idle nozzle over the part: no wall between.
-  EXPECT_EQ(wall_start(wall, scene, {-20, 0}).exposure_mm, 0);
+  WallScene scene{.idle_mm = {{50, 0}}, .part = rectangle({10, -30}, {110, 30}), .standing = {}};
+  const double all = wall_start(wall, scene, {0, 0}).exposure_mm;
+  EXPECT_NEAR(all, 120, 1e-6);
+  scene.standing = {wall_of(rectangle({45, -8}, {55, 20}).front())};
+  EXPECT_LT(wall_start(wall, scene, {0, 0}).exposure_mm, 30);
+  // Not one that lies on the same lines far away.
+  scene.standing = {wall_of(rectangle({200, -10}, {240, 10}).front())};
+  EXPECT_EQ(wall_start(wall, scene, {0, 0}).exposure_mm, all);
 }
 
 TEST(WallStart, OpenHalvesBeginAtOneOfTheirEnds) {
   const auto halves =
-      half_wall_paths(rectangle({-20, -10}, {20, 10}), {WallPrinter{0, road}, WallPrinter{1, road}}, {30, 0}, 0);
+      half_wall_paths(rectangle({-20, -10}, {20, 10}), {WallPrinter{0, road}, WallPrinter{1, road}}, {30, 0});
   const WallScene scene{.idle_mm = {{30, 0}}, .part = rectangle({-18, -8}, {18, 8}), .standing = {}};
   const WallStart near_top = wall_start(halves.front(), scene, {0, 100});
   EXPECT_EQ(begun(halves.front(), near_top).start().y, 10);

@@ -44,7 +44,7 @@ TEST(Walls, AreClosedPathsOfTheirOwnExtruders) {
 
 TEST(HalfWalls, EachNozzlePrintsTheHalfOnTheFarSideOfTheOther) {
   // Nozzle 1 is on the right: while nozzle 0 prints the right half, nozzle 1 is further right still.
-  const std::vector<Path> paths = half_wall_paths(rectangle({0, 0}, {20, 10}), printers, {33, 0}, 10);
+  const std::vector<Path> paths = half_wall_paths(rectangle({0, 0}, {20, 10}), printers, {33, 0});
   ASSERT_EQ(paths.size(), 2U);
   EXPECT_EQ(box_of(paths, 0).max.x, 20);
   EXPECT_EQ(box_of(paths, 0).min.x, 9.5);
@@ -56,7 +56,7 @@ TEST(HalfWalls, EachNozzlePrintsTheHalfOnTheFarSideOfTheOther) {
 }
 
 TEST(HalfWalls, AreSplitAlongTheNozzlesWhereverThoseLie) {
-  const std::vector<Path> paths = half_wall_paths(rectangle({0, 0}, {20, 10}), printers, {0, -25}, -5);
+  const std::vector<Path> paths = half_wall_paths(rectangle({0, 0}, {20, 10}), printers, {0, -25});
   EXPECT_EQ(box_of(paths, 0).max.y, 5.5);
   EXPECT_EQ(box_of(paths, 0).min.y, 0);
   EXPECT_EQ(box_of(paths, 1).min.y, 4.5);
@@ -65,28 +65,37 @@ TEST(HalfWalls, AreSplitAlongTheNozzlesWhereverThoseLie) {
 TEST(HalfWalls, ARingThatWindsAcrossTheMiddleIsCutWhereverItCrosses) {
   // Both arms of this C reach over the middle: an outer and an inner piece on its left, the ends on its right.
   const Polygons comb = difference(rectangle({0, 0}, {20, 12}), rectangle({5, 3}, {21, 9}));
-  const std::vector<Path> paths = half_wall_paths(comb, printers, {33, 0}, 10);
+  const std::vector<Path> paths = half_wall_paths(comb, printers, {33, 0});
   EXPECT_EQ(std::ranges::count(paths, 0, &Path::extruder), 2);
   EXPECT_EQ(std::ranges::count(paths, 1, &Path::extruder), 2);
   EXPECT_NEAR(length_of(paths, 0) + length_of(paths, 1), length_mm(comb) + 4, 1e-6);
 }
 
-TEST(HalfWalls, ARingOnOneSideIsPrintedWholeByOne) {
-  const Polygons both = united(rectangle({0, 0}, {5, 5}), rectangle({30, 0}, {35, 5}));
-  const std::vector<Path> paths = half_wall_paths(both, printers, {33, 0}, 17);
-  ASSERT_EQ(paths.size(), 2U);
-  EXPECT_TRUE(paths[0].closed && paths[1].closed);
-  EXPECT_EQ(box_of(paths, 0).min.x, 30);
-  EXPECT_EQ(box_of(paths, 1).max.x, 5);
-  // One so small that it lies in the overlap is not printed twice.
-  EXPECT_EQ(half_wall_paths(rectangle({16.7, 0}, {17.3, 1}), printers, {33, 0}, 17).size(), 1U);
+TEST(HalfWalls, EachRingIsSplitAtItsOwnMiddle) {
+  const Polygons both = united(rectangle({0, 0}, {6, 6}), rectangle({30, 0}, {36, 6}));
+  const std::vector<Path> paths = half_wall_paths(both, printers, {33, 0});
+  ASSERT_EQ(paths.size(), 4U);
+  EXPECT_NEAR(length_of(paths, 0), length_of(paths, 1), 1e-9);
+  EXPECT_EQ(box_of(paths, 0).min.x, 2.5);
+  EXPECT_EQ(box_of(paths, 1).max.x, 33.5);
+  // One so small that its halves would lie upon each other is not printed twice.
+  const std::vector<Path> small = half_wall_paths(rectangle({16.7, 0}, {17.3, 1}), printers, {33, 0});
+  ASSERT_EQ(small.size(), 1U);
+  EXPECT_TRUE(small[0].closed);
+}
+
+TEST(WallBrims, StayApartFromTheNextWall) {
+  const std::vector<Polygons> walls{rectangle({0, 0}, {10, 10}), rectangle({-2, -2}, {12, 12})};
+  const std::vector<Path> loops = wall_brims(walls, printers, 5, 2, 0.5);
+  EXPECT_LE(box_of(loops, 0).max.x, 11.5 - 0.5 + 1e-6) << "half a road away from the middle between both";
+  EXPECT_NEAR(box_of(loops, 1).max.x, 17, 1e-6);
 }
 
 TEST(WallBrims, SurroundEachWallFromTheOutsideIn) {
   const std::vector<Polygons> walls{rectangle({0, 0}, {10, 10})};
-  const std::vector<Path> loops = wall_brims(walls, printers, 2, 0.5);
+  const std::vector<Path> loops = wall_brims(walls, printers, 2, 4, 0.5);
   ASSERT_EQ(loops.size(), 4U);
   for (std::size_t i = 1; i < loops.size(); ++i) EXPECT_LT(length_mm(loops[i]), length_mm(loops[i - 1]));
   EXPECT_NEAR(box_of(loops, 0).max.x, 12, 1e-6);
-  EXPECT_TRUE(wall_brims(walls, printers, 0, 0.5).empty());
+  EXPECT_TRUE(wall_brims(walls, printers, 0, 4, 0.5).empty());
 }

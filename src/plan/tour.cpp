@@ -1,0 +1,172 @@
+#include "plan/tour.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <queue>
+
+namespace cleancolor {
+namespace {
+
+constexpr double unreached = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t nobody = 0xFFFFFFFF;
+
+/// Where an entry is left again.
+std::uint32_t exit_of(const Path& path, std::uint32_t entry) {
+  return path.closed ? entry : 1 - entry;
+}
+
+bool can_enter(const Path& path, std::uint32_t entry) {
+  return path.road().role != Role::rampart || entry == 0;
+}
+
+/// One shortest path search after another over the same nodes.
+class Search {
+ public:
+  explicit Search(const Roadmap& map) : map_(map), cost_(map.nodes_mm.size()), before_(map.nodes_mm.size()) {}
+
+  struct Seed {
+    std::uint32_t node = 0;
+    double cost = 0;
+  };
+
+  /// Settles nodes from the seeds until all targets have their cost, or are `slack` dearer than the first.
+  /// Predecessors of what was settled are appended to the log.
+  void run(std::span<const Seed> seeds, std::span<const std::uint32_t> targets, double slack) {
+    std::ranges::fill(cost_, unreached);
+    std::ranges::fill(before_, nobody);
+    std::ranges::fill(wanted_, 0);
+    wanted_.resize(cost_.size());
+    heap_.clear();
+    std::size_t open = 0;
+    for (const std::uint32_t t : targets) open += wanted_[t] == 0, wanted_[t] = 1;
+    for (const Seed& s : seeds) offer(s.node, s.cost, nobody);
+    double end = unreached;
+    while (!heap_.empty() && open > 0) {
+      std::ranges::pop_heap(heap_, std::greater());
+      const auto [cost, node] = heap_.back();
+      heap_.pop_back();
+      if (cost > cost_[node]) continue;
+      if (cost > end) break;
+      if (wanted_[node] == 1) {
+        wanted_[node] = 2;
+        --open;
+        if (end == unreached) end = cost + slack;
+      }
+      for (const Arc& arc : map_.arcs_of(node)) offer(arc.to, cost + double(arc.cost), node);
+    }
+    // What was reached but not settled is no shortest path yet.
+    for (const std::uint32_t t : targets)
+      if (wanted_[t] == 1) cost_[t] = unreached;
+  }
+
+  double cost(std::uint32_t node) const { return cost_[node]; }
+  const std::vector<std::uint32_t>& before() const { return before_; }
+
+ private:
+  void offer(std::uint32_t node, double cost, std::uint32_t from) {
+    if (cost >= cost_[node]) return;
+    cost_[node] = cost;
+    before_[node] = from;
+    heap_.emplace_back(cost, node);
+    std::ranges::push_heap(heap_, std::greater());
+  }
+
+  const Roadmap& map_;
+  std::vector<double> cost_;
+  std::vector<std::uint32_t> before_;
+  std::vector<char> wanted_;
+  std::vector<std::pair<double, std::uint32_t>> heap_;
+};
+
+/// Leaves out places that a straight way costs no more without.
+void pull(std::vector<Vec2>& way, const TravelCost& cost) {
+  std::vector<double> part;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) part.push_back(cost.way(way[i], way[i + 1]));
+  for (std::size_t i = 0; i + 2 < way.size();) {
+    const double straight = cost.way(way[i], way[i + 2]);
+    if (straight > part[i] + part[i + 1] + 1e-9) {
+      ++i;
+      continue;
+    }
+    way.erase(way.begin() + std::ptrdiff_t(i) + 1);
+    part.erase(part.begin() + std::ptrdiff_t(i));
+    part[i] = straight;
+    if (i > 0) --i;
+  }
+}
+
+}  // namespace
+
+std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const TravelCost& cost,
+                        const TourOptions& options) {
+  std::vector<Visit> visits(paths.size());
+  if (paths.empty()) return visits;
+  Search search(map);
+  // Of each stage: the cost of each entry with what it costs to enter, and the predecessors of all nodes.
+  std::vector<std::vector<double>> entered(paths.size());
+  std::vector<std::vector<std::uint32_t>> before(paths.size());
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const std::vector<Entry>& entries = map.entries[k];
+    std::vector<Search::Seed> seeds;
+    if (k > 0) {
+      for (std::uint32_t i = 0; i < map.entries[k - 1].size(); ++i)
+        if (entered[k - 1][i] < unreached)
+          seeds.push_back({map.entries[k - 1][exit_of(paths[k - 1], i)].node, entered[k - 1][i]});
+    }
+    std::vector<std::uint32_t> targets;
+    for (std::uint32_t i = 0; i < entries.size(); ++i)
+      if (can_enter(paths[k], i)) targets.push_back(entries[i].node);
+    if (k > 0) {
+      search.run(seeds, targets, options.slack_mm);
+      before[k] = search.before();
+    }
+    for (std::uint32_t i = 0; i < entries.size(); ++i) {
+      double c = unreached;
+      if (can_enter(paths[k], i)) {
+        if (k > 0) {
+          c = search.cost(entries[i].node);
+        } else {
+          c = options.from_mm ? cost.way(*options.from_mm, map.nodes_mm[entries[i].node]) : 0;
+        }
+        c += cost.seam(entries[i].at_mm) + cost.seam(entries[exit_of(paths[k], i)].at_mm);
+        if (options.entry_cost) c += options.entry_cost(k, i);
+      }
+      entered[k].push_back(c);
+    }
+    // Numbers stay small: only differences count.
+    const double least = *std::ranges::min_element(entered[k]);
+    for (double& c : entered[k]) c -= least;
+  }
+  // Back from the cheapest end.
+  std::uint32_t entry = std::uint32_t(std::ranges::min_element(entered.back()) - entered.back().begin());
+  for (std::size_t k = paths.size(); k-- > 0;) {
+    visits[k].entry = entry;
+    if (k == 0) break;
+    std::vector<Vec2> way{map.nodes_mm[map.entries[k][entry].node]};
+    std::uint32_t node = map.entries[k][entry].node;
+    for (; before[k][node] != nobody; node = before[k][node]) way.push_back(map.nodes_mm[before[k][node]]);
+    std::ranges::reverse(way);
+    pull(way, cost);
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) visits[k].travel_cost += cost.way(way[i], way[i + 1]);
+    visits[k].travel_mm.assign(way.begin() + 1, way.end() - (way.size() > 1 ? 1 : 0));
+    // Of the entries of the path before that are left here, the cheapest.
+    std::uint32_t best = nobody;
+    for (std::uint32_t i = 0; i < map.entries[k - 1].size(); ++i)
+      if (map.entries[k - 1][exit_of(paths[k - 1], i)].node == node && entered[k - 1][i] < unreached &&
+          (best == nobody || entered[k - 1][i] < entered[k - 1][best]))
+        best = i;
+    assert(best != nobody);
+    entry = best;
+  }
+  return visits;
+}
+
+Path begun(Path path, const Roadmap& map, std::size_t index, std::uint32_t entry) {
+  const Entry& e = map.entries[index][entry];
+  if (!path.closed) return entry == 1 ? reversed(std::move(path)) : path;
+  return e.at_mm == path.points[e.segment] ? started_at(std::move(path), e.segment)
+                                           : started_on(std::move(path), e.segment, e.at_mm);
+}
+
+}  // namespace cleancolor
