@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
@@ -10,13 +11,15 @@
 #include "gcode/writer.hpp"
 #include "model/assign.hpp"
 #include "model/check.hpp"
+#include "model/reach.hpp"
 #include "model/read.hpp"
 #include "picture.hpp"
-#include "plan/plain_order.hpp"
+#include "plan/planner.hpp"
 #include "protection.hpp"
 #include "slice/slices.hpp"
 #include "toolpath/bed.hpp"
 #include "toolpath/cooling.hpp"
+#include "toolpath/roads.hpp"
 #include "toolpath/toolpaths.hpp"
 
 namespace cleancolor {
@@ -122,6 +125,15 @@ Azimuths azimuths_of(const SliceRequest& request, std::span<const Part> parts, c
   return azimuths_of_print(layers, use, request.config, fixed_center(request, parts), thread_count(request.threads));
 }
 
+/// The extruders that print in a layer, ascending.
+std::vector<int> printing_in(const Slices& slices, int layer) {
+  std::vector<int> result;
+  const auto& regions = slices.regions[std::size_t(layer)];
+  for (std::size_t e = 0; e < regions.size(); ++e)
+    if (!regions[e].empty()) result.push_back(int(e));
+  return result;
+}
+
 /// The layers of one print on their way from regions to G-code; each stage owns its slot of each layer.
 class Print {
  public:
@@ -131,12 +143,15 @@ class Print {
         request_(request),
         slices_(slices),
         rampart_(slices, use, request.config, thread_count(request.threads)),
+        use_(use),
         info_(std::move(info)),
         sink_(std::move(sink)),
         progress_(progress),
         shells_(slices.slabs.size()),
         areas_(slices.slabs.size()),
-        paths_(slices.slabs.size()) {
+        paths_(slices.slabs.size()),
+        rampart_g_(slices.slabs.size()),
+        planned_(slices.slabs.size()) {
     if (use.extruders.empty()) throw too_thin(request, 0);
     if (slices.outlines.front().empty())
       throw Error(
@@ -146,6 +161,15 @@ class Print {
     bed_ = bed_paths(slices, use.extruders, rampart_.empty() ? config_ : without_priming(config_, progress), progress);
     state_.extruder = info_.initial_extruder = use.extruders.front();
     coverage_.resize(info_.last_layer.size());
+    if (config_.planner == Planner::plain) return;
+    std::vector<double> height_mm;
+    for (const Slab& slab : slices.slabs) height_mm.push_back(slab.height_mm);
+    for (int e = 0; e < int(config_.extruders.size()); ++e) reach_.push_back(reach(config_, e));
+    visibility_.emplace(slices.outlines, height_mm, SurfaceVisibilityOptions{.threads = thread_count(request.threads)},
+                        progress);
+    std::vector<std::vector<int>> printing;
+    for (std::size_t k = 0; k < slices.slabs.size(); ++k) printing.push_back(printing_in(slices, int(k)));
+    first_ = first_extruders(printing, use.extruders.front());
   }
 
   PrintFigures run(int threads) {
@@ -154,7 +178,8 @@ class Print {
                      .window = 2 * reach + layers_ahead,
                      .stages = {{0, [&](int k) { slot(shells_, k) = layer_shells(slices_, k, config_); }},
                                 {reach, [&](int k) { slot(areas_, k) = layer_areas(shells_, k, config_); }},
-                                {1, [&](int k) { make_paths(k); }}},
+                                {1, [&](int k) { make_paths(k); }},
+                                {0, [&](int k) { plan(k); }}},
                      .consume = [&](int k) { write(k); }},
                     threads);
     judge_losses();
@@ -162,7 +187,7 @@ class Print {
     return figures;
   }
 
-  double rampart_g() const { return rampart_g_; }
+  double rampart_g() const { return std::accumulate(rampart_g_.begin(), rampart_g_.end(), 0.); }
 
  private:
   template <class T>
@@ -175,17 +200,59 @@ class Print {
     slot(paths_, k) = layer_paths(slices_, slot(shells_, k), below, slot(areas_, k), k, config_);
   }
 
-  void write(int k) {
-    if (progress_.interrupted()) throw Error("interrupted");
+  /// All paths of the layer, in no order yet.
+  Layer layer_of(int k) {
     const Slab& slab = slices_.slabs[std::size_t(k)];
     Layer layer{
         .index = k, .print_z_mm = slab.print_z_mm, .height_mm = slab.height_mm, .paths = {}, .fan_by_extruder = {}};
     if (k < int(bed_.size())) layer.paths = std::move(slot(bed_, k));
     std::vector<Path> walls = rampart_.paths(k);
-    rampart_g_ += weight_g(walls);
+    slot(rampart_g_, k) = weight_g(walls);
     std::ranges::move(walls, std::back_inserter(layer.paths));
-    std::move(slot(paths_, k).begin(), slot(paths_, k).end(), std::back_inserter(layer.paths));
-    order(layer, state_, config_, rampart_.site(k));
+    std::ranges::move(slot(paths_, k), std::back_inserter(layer.paths));
+    return layer;
+  }
+
+  /// Layers are planned side by side where none needs what the one below remembers.
+  bool plans_ahead() const { return visibility_ && config_.seam_position != SeamPosition::aligned; }
+
+  void plan(int k) {
+    if (!plans_ahead()) return;
+    OrderState state{.extruder = first_[std::size_t(k)], .at = {}, .seams = {}};
+    slot(planned_, k).emplace(layer_of(k), state, config_, scene(k), *visibility_);
+  }
+
+  PlanScene scene(int k) const {
+    static const Polygons nothing;
+    const auto i = std::size_t(k);
+    const Polygons& above = i + 1 < slices_.outlines.size() ? slices_.outlines[i + 1] : nothing;
+    const double width_mm = roads(config_, use_.extruders.front(), k, slices_.slabs[i]).external_perimeter.width_mm;
+    return {.part = {slices_.regions[i], slices_.outlines[i], above, slices_.slabs[i].print_z_mm, width_mm},
+            .site = rampart_.site(k),
+            .hanging = config_.idle_nozzle == IdleNozzle::same_height ? use_.hot(k, config_) : std::vector<int>{},
+            .reach = reach_};
+  }
+
+  Layer ordered(int k) {
+    if (!visibility_) {
+      Layer layer = layer_of(k);
+      order(layer, state_, config_, rampart_.site(k));
+      return layer;
+    }
+    auto& planned = slot(planned_, k);
+    if (!planned) planned.emplace(layer_of(k), state_, config_, scene(k), *visibility_);
+    planned->arrive_from(below_);
+    Layer layer = std::move(*planned).release();
+    planned.reset();
+    if (!layer.paths.empty()) {
+      below_.paths.assign(1, layer.paths.back());
+    }
+    return layer;
+  }
+
+  void write(int k) {
+    if (progress_.interrupted()) throw Error("interrupted");
+    Layer layer = ordered(k);
     cool(layer, config_);
     if (!writer_) begin(layer);
     writer_->layer(layer);
@@ -241,14 +308,20 @@ class Print {
   const SliceRequest& request_;
   const Slices& slices_;
   PrintedRampart rampart_;
-  double rampart_g_ = 0;
+  const Use& use_;
   PrintInfo info_;
   Sink sink_;
   const Progress& progress_;
   std::vector<LayerShells> shells_;
   std::vector<LayerAreas> areas_;
   std::vector<std::vector<Path>> paths_;
+  std::vector<double> rampart_g_;                     // by layer
+  std::vector<std::optional<PlannedLayer>> planned_;  // by layer
   std::vector<std::vector<Path>> bed_;
+  std::optional<SurfaceVisibility> visibility_;  // where the planner is not plain
+  std::vector<Polygons> reach_;                  // of each extruder
+  std::vector<int> first_;                       // the extruder that begins each layer
+  Layer below_;                                  // the last path of the layer written last
   OrderState state_;
   std::unique_ptr<GcodeWriter> writer_;
   std::vector<Coverage> coverage_;  // of each extruder, all layers together

@@ -73,6 +73,13 @@ Use::Use(const Slices& slices) : last_layer(slices.regions.empty() ? 0 : slices.
     if (last_layer[e]) extruders.push_back(int(e));
 }
 
+std::vector<int> Use::hot(int layer, const Config& config) const {
+  std::vector<int> result;
+  for (const int e : extruders)
+    if (!config.heater_off_after_last_use || *last_layer[std::size_t(e)] >= layer) result.push_back(e);
+  return result;
+}
+
 RampartShape rampart_shape(const Config& config, const Use& use) {
   if (use.extruders.size() < 2) return RampartShape::off;
   if (config.rampart != RampartShape::automatic) return config.rampart;
@@ -121,10 +128,9 @@ std::vector<Path> PrintedRampart::paths(int layer) const {
   const auto& regions = slices_.regions[std::size_t(layer)];
   // Whoever prints here anyway, else one whose nozzle is still hot.
   const auto prints = [&](int e) { return layer == 0 || !regions[std::size_t(e)].empty(); };
-  const auto is_hot = [&](int e) { return *use_.last_layer[std::size_t(e)] >= layer; };
-  auto any = std::ranges::find_if(use_.extruders, prints);
-  if (any == use_.extruders.end()) any = std::ranges::find_if(use_.extruders, is_hot);
-  const int stand_in = any != use_.extruders.end() ? *any : use_.extruders.front();
+  const std::vector<int> hot = use_.hot(layer, config_);
+  const auto any = std::ranges::find_if(use_.extruders, prints);
+  const int stand_in = any != use_.extruders.end() ? *any : hot.front();
   std::vector<WallPrinter> printers;
   for (const int e : use_.extruders) {
     const int extruder = prints(e) ? e : stand_in;
@@ -152,10 +158,7 @@ std::vector<Path> PrintedRampart::paths(int layer) const {
 
 RampartSite PrintedRampart::site(int layer) const {
   if (layer >= int(rampart_.walls.size())) return {};
-  std::vector<int> hot;
-  for (const int e : use_.extruders)
-    if (!config_.heater_off_after_last_use || *use_.last_layer[std::size_t(e)] >= layer) hot.push_back(e);
-  return {std::move(hot), slices_.outlines[std::size_t(layer)]};
+  return {use_.hot(layer, config_), slices_.outlines[std::size_t(layer)]};
 }
 
 Azimuths azimuths_of_print(const Slices& slices, const Use& use, const Config& config, std::optional<Vec2> center_mm,

@@ -19,6 +19,9 @@ namespace cleancolor {
 /// The extruders that print something, ascending, and the last layer of each.
 struct Use {
   explicit Use(const Slices& slices);
+  /// Those whose nozzles are hot in a layer: that print in it or above, or all where heaters stay on.
+  std::vector<int> hot(int layer, const Config& config) const;
+
   std::vector<int> extruders;
   std::vector<std::optional<int>> last_layer;  // by extruder
 };

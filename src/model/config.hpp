@@ -18,12 +18,13 @@ namespace cleancolor {
 enum class Flavour { marlin2, klipper, reprapfirmware, sailfish };
 enum class OffsetsIn { slicer, firmware };
 enum class IdleNozzle { same_height, lifted, parked, docked };
-enum class SeamPosition { nearest, aligned, rear, random };
+enum class SeamPosition { nearest, aligned, rear, random, hidden };
 enum class FillPattern { rectilinear, grid, gyroid, concentric };
 enum class BrimType { no_brim, outer_only };
 enum class RampartShape { automatic, conforming, vertical, off };
 enum class RampartWalls { doubled, split };
 enum class RampartOrder { before_run, layer_start };
+enum class Planner { clean, plain };
 
 /// A length in mm, or a share of another length: "0.45" or "105%".
 struct LengthOrShare {
@@ -115,7 +116,7 @@ struct Config {
   int bottom_solid_layers = 3;
   bool interface_shells = false;
   double solid_infill_below_area_mm2 = 70;
-  SeamPosition seam_position = SeamPosition::aligned;
+  SeamPosition seam_position = SeamPosition::hidden;
   LengthOrShare seam_gap_distance = {0.15, true};  // of the nozzle diameter
   double slice_closing_radius_mm = 0.049;
   double xy_size_compensation_mm = 0;
@@ -179,6 +180,9 @@ struct Config {
   double rampart_speed_mm_s = 120;
   double rampart_max_overhang_deg = 45;
   double rampart_brim_width_mm = 2;
+
+  // print: planner
+  Planner planner = Planner::clean;
 
   // print: output
   double resolution_mm = 0.02;          // contours are simplified by this much before any offset

@@ -110,7 +110,7 @@ constexpr Option table[] = {
   {"bottom_solid_layers", print, "Layers and walls", &C::bottom_solid_layers, "layers", 0, 1000, "solid layers above every bottom surface"},
   {"interface_shells", print, "Layers and walls", &C::interface_shells, "", 0, 0, "solid layers also where another extruder's plastic covers the surface"},
   {"solid_infill_below_area", print, "Layers and walls", &C::solid_infill_below_area_mm2, "mm2", 0, 1e6, "smaller regions are solid"},
-  {"seam_position", print, "Layers and walls", &C::seam_position, "", 0, 0, "where loops begin"},
+  {"seam_position", print, "Layers and walls", &C::seam_position, "", 0, 0, "where loops begin; hidden: where they can be seen least (plain planner: aligned)"},
   {"seam_gap_distance", print, "Layers and walls", &C::seam_gap_distance, "mm or % of nozzle_diameter", 0, 10, "gap left between the ends of a loop"},
   {"slice_closing_radius", print, "Layers and walls", &C::slice_closing_radius_mm, "mm", 0, 5, "cracks up to twice this wide are closed"},
   {"xy_size_compensation", print, "Layers and walls", &C::xy_size_compensation_mm, "mm", -10, 10, "outlines grow by this much"},
@@ -170,6 +170,8 @@ constexpr Option table[] = {
   {"rampart_speed", print, "Rampart", &C::rampart_speed_mm_s, "mm/s", 1, 1000, "of the walls"},
   {"rampart_max_overhang", print, "Rampart", &C::rampart_max_overhang_deg, "degrees", 0, 80, "how far conforming walls lean over, from the vertical; at most half a line a layer"},
   {"rampart_brim_width", print, "Rampart", &C::rampart_brim_width_mm, "mm", 0, 100, "of the walls in the first layer, so that they stand; 0: none"},
+
+  {"planner", print, "Planner", &C::planner, "", 0, 0, "clean: ways that keep nozzles off other colours and starts that cannot be seen; plain: the nearest path next, straight"},
 
   {"resolution", print, "Output", &C::resolution_mm, "mm", 0, 1, "outlines are simplified by this much before anything else"},
   {"gcode_resolution", print, "Output", &C::gcode_resolution_mm, "mm", 0, 1, "print paths are simplified by this much"},

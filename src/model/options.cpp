@@ -19,12 +19,13 @@ using namespace std::string_view_literals;
 constexpr std::string_view flavours[] = {"marlin2", "klipper", "reprapfirmware", "sailfish"};
 constexpr std::string_view offsets_in[] = {"slicer", "firmware"};
 constexpr std::string_view idle_nozzles[] = {"same_height", "lifted", "parked", "docked"};
-constexpr std::string_view seam_positions[] = {"nearest", "aligned", "rear", "random"};
+constexpr std::string_view seam_positions[] = {"nearest", "aligned", "rear", "random", "hidden"};
 constexpr std::string_view fill_patterns[] = {"rectilinear", "grid", "gyroid", "concentric"};
 constexpr std::string_view brim_types[] = {"no_brim", "outer_only"};
 constexpr std::string_view rampart_shapes[] = {"auto", "conforming", "vertical", "off"};
 constexpr std::string_view rampart_walls[] = {"double", "split"};
 constexpr std::string_view rampart_orders[] = {"before_run", "layer_start"};
+constexpr std::string_view planners[] = {"clean", "plain"};
 
 std::span<const std::string_view> names_of(Flavour) {
   return flavours;
@@ -52,6 +53,9 @@ std::span<const std::string_view> names_of(RampartWalls) {
 }
 std::span<const std::string_view> names_of(RampartOrder) {
   return rampart_orders;
+}
+std::span<const std::string_view> names_of(Planner) {
+  return planners;
 }
 
 // The type of the value that a field holds.

@@ -216,4 +216,16 @@ void order(Layer& layer, OrderState& state, const Config& config, const RampartS
   Orderer(layer, state, config, site).run();
 }
 
+std::vector<int> first_extruders(const std::vector<std::vector<int>>& printing, int first) {
+  std::vector<int> result;
+  int current = first;
+  for (const std::vector<int>& here : printing) {
+    if (std::ranges::find(here, current) == here.end() && !here.empty()) current = here.front();
+    result.push_back(current);
+    // The others follow in ascending order.
+    if (!here.empty() && here.size() > 1) current = here.back() != current ? here.back() : here[here.size() - 2];
+  }
+  return result;
+}
+
 }  // namespace cleancolor

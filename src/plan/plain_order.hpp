@@ -34,4 +34,8 @@ struct RampartSite {
 /// Cost: quadratic in the number of paths of an island and of islands.
 void order(Layer& layer, OrderState& state, const Config& config, const RampartSite& site = {});
 
+/// The extruder that begins each layer when each begins with the one that ended the layer below, if it prints there.
+/// printing: the extruders that print in each layer, ascending; first: that begins the print.
+std::vector<int> first_extruders(const std::vector<std::vector<int>>& printing, int first);
+
 }  // namespace cleancolor

@@ -5,12 +5,14 @@
 //
 //   paths of a layer, what lies where  ->  the same paths in order, begun at their starts, with Path::travel
 //
-// order (plan/plain_order.hpp), then the way through it on a roadmap of the layer (roadmap.hpp, tour.hpp).
-// Takes regions and paths, and never asks where they come from.
+// order (plan/plain_order.hpp), then the way through it on a roadmap of the layer (roadmap.hpp, tour.hpp). Layers are
+// planned on their own; the way from one to the next is found when both are known. Takes regions and paths, and never
+// asks where they come from.
+//
 // Source: Hergel and Lefebvre, Clean color, section 6.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "plan/layer_map.hpp"
@@ -18,15 +20,41 @@
 
 namespace cleancolor {
 
-/// What hangs over the layer, and what is known of the way before it.
-struct PlanOptions {
-  std::vector<int> hanging;     // extruders whose nozzles are at print height, ascending
-  std::optional<Vec2> from_mm;  // where the carriage is; nothing: not known
+/// What the planner must know of a layer beside its paths.
+struct PlanScene {
+  LayerScene part;
+  RampartSite site;
+  std::vector<int> hanging;         // extruders whose idle nozzles stay at print height, ascending
+  std::span<const Polygons> reach;  // where each extruder's nozzle can go, convex; empty: anywhere
 };
 
-/// Plans one layer. state: what the layer below handed on; only its extruder and seams are used.
-/// Cost: 5 to 15 ms for a layer of 1 m of paths.
-void plan(Layer& layer, OrderState& state, const Config& config, const RampartSite& site, const LayerScene& scene,
-          const SurfaceVisibility& visibility, const PlanOptions& options);
+/// A planned layer, and what the way to it is found on.
+class PlannedLayer {
+ public:
+  /// state: what the layer below handed on; its extruder and seams are used.
+  /// Cost: 5 to 15 ms for a layer of 1 m of paths.
+  PlannedLayer(Layer layer, OrderState& state, const Config& config, const PlanScene& scene,
+               const SurfaceVisibility& visibility);
+  ~PlannedLayer();
+  PlannedLayer(PlannedLayer&&) noexcept;
+  PlannedLayer& operator=(PlannedLayer&&) noexcept;
+
+  const Layer& layer() const { return layer_; }
+
+  /// The way to the first path from where the layer below ended.
+  void arrive_from(const Layer& below);
+
+  /// The layer, and frees the rest.
+  Layer release() &&;
+
+ private:
+  struct Run;
+  void plan_run(std::size_t first, std::size_t last, std::vector<int> nozzles, const PlanScene& scene);
+
+  Layer layer_;
+  const Config* config_;
+  std::unique_ptr<LayerMap> map_;
+  std::unique_ptr<Run> first_;  // the roadmap of the first run
+};
 
 }  // namespace cleancolor

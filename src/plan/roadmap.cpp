@@ -11,6 +11,7 @@ namespace {
 
 constexpr double unit_per_mm = 1000;  // of the triangulation's whole numbers
 constexpr double field_mm = 0.5;      // cells of the distance field
+constexpr double most_cells = 5e5;    // larger ones where there would be more
 constexpr int samples_a_stretch = 4;
 constexpr double ridge_mm = 2.5;  // nearest shapes this far apart: a way between two
 
@@ -59,8 +60,10 @@ void add_entries(const Path& path, Vec2 offset_mm, const TravelCost& cost, const
 class Field {
  public:
   Field(const TravelCost& cost, const Box<Vec2>& box) : origin_(box.min) {
-    columns_ = int(box.size().x / field_mm) + 1;
-    rows_ = int(box.size().y / field_mm) + 1;
+    const double area_mm2 = box.size().x * box.size().y;
+    cell_mm_ = std::max(field_mm, std::sqrt(area_mm2 / most_cells));
+    columns_ = int(box.size().x / cell_mm_) + 1;
+    rows_ = int(box.size().y / cell_mm_) + 1;
     nearest_.assign(std::size_t(columns_) * std::size_t(rows_), none);
     for (int y = 0; y < rows_; ++y)
       for (int x = 0; x < columns_; ++x)
@@ -68,13 +71,14 @@ class Field {
     sweep();
   }
 
+  double cell_mm() const { return cell_mm_; }
   int columns() const { return columns_; }
   int rows() const { return rows_; }
-  Vec2 place(int x, int y) const { return origin_ + Vec2{x + 0.5, y + 0.5} * field_mm; }
+  Vec2 place(int x, int y) const { return origin_ + Vec2{x + 0.5, y + 0.5} * cell_mm_; }
   /// In mm; infinite where nothing is barred.
   double distance_mm(int x, int y) const {
     const std::int32_t n = nearest_[index(x, y)];
-    return n == none ? INFINITY : field_mm * std::sqrt(double(squared(x, y, n)));
+    return n == none ? INFINITY : cell_mm_ * std::sqrt(double(squared(x, y, n)));
   }
   /// Whether the nearest barred places of this cell and of one of its neighbours lie far apart.
   bool is_between(int x, int y) const {
@@ -84,7 +88,7 @@ class Field {
       if (i >= columns_ || j >= rows_) continue;
       const std::int32_t m = nearest_[index(i, j)];
       const double dx = n % columns_ - m % columns_, dy = n / columns_ - m / columns_;
-      if (field_mm * std::hypot(dx, dy) > ridge_mm) return true;
+      if (cell_mm_ * std::hypot(dx, dy) > ridge_mm) return true;
     }
     return false;
   }
@@ -124,6 +128,7 @@ class Field {
   }
 
   Vec2 origin_;
+  double cell_mm_ = field_mm;
   int columns_ = 0, rows_ = 0;
   std::vector<std::int32_t> nearest_;  // the barred cell
 };
@@ -131,7 +136,7 @@ class Field {
 /// Ways around shapes and between them, thinned to one node for each square of pathway_mm.
 void add_pathways(const TravelCost& cost, const Box<Vec2>& box, const RoadmapOptions& options, Nodes& nodes) {
   const Field field(cost, box);
-  const int square = std::max(1, int(options.pathway_mm / field_mm));
+  const int square = std::max(1, int(options.pathway_mm / field.cell_mm()));
   const int squares = field.columns() / square + 1;
   std::vector<char> around(std::size_t(squares), 0), between(std::size_t(squares), 0);
   for (int y = 0; y < field.rows(); ++y) {
@@ -140,7 +145,7 @@ void add_pathways(const TravelCost& cost, const Box<Vec2>& box, const RoadmapOpt
       const double d = field.distance_mm(x, y);
       if (d == 0) continue;
       const auto s = std::size_t(x / square);
-      if (!around[s] && std::abs(d - options.clearance_mm) < field_mm / 2) {
+      if (!around[s] && std::abs(d - options.clearance_mm) < field.cell_mm() / 2) {
         around[s] = 1;
         nodes.add(field.place(x, y));
       } else if (!between[s] && d < 10 * options.clearance_mm && field.is_between(x, y)) {
@@ -204,9 +209,9 @@ void add_arcs(Roadmap& map, const TravelCost& cost) {
   map.arcs.resize(2 * edges.size());
   std::vector<std::uint32_t> next(map.first_arc.begin(), map.first_arc.end() - 1);
   for (const auto& [a, b] : edges) {
-    const auto c = float(cost.way(map.nodes_mm[a], map.nodes_mm[b]));
-    map.arcs[next[a]++] = {b, c};
-    map.arcs[next[b]++] = {a, c};
+    const TravelCost::Way way = cost.straight(map.nodes_mm[a], map.nodes_mm[b]);
+    map.arcs[next[a]++] = {b, float(way.cost), float(way.foreign)};
+    map.arcs[next[b]++] = {a, float(way.cost), float(way.foreign)};
   }
 }
 
@@ -228,7 +233,7 @@ Roadmap roadmap(std::span<const Path> paths, const TravelCost& cost, const Roadm
       entries.push_back({nodes.add(path.points.front() - offset), 0, path.points.front()});
       entries.push_back(
           {nodes.add(path.points.back() - offset), std::uint32_t(path.segments() - 1), path.points.back()});
-    } else if (path.road().role == Role::rampart) {
+    } else if (options.fixed_seams || path.road().role == Role::rampart) {
       entries.push_back({nodes.add(path.start() - offset), 0, path.start()});
     } else {
       add_entries(path, offset, cost, options, nodes, entries);
@@ -240,6 +245,12 @@ Roadmap roadmap(std::span<const Path> paths, const TravelCost& cost, const Roadm
   add_pathways(cost, {box.min - margin, box.max + margin}, options, nodes);
   for (const Path& path : paths)
     if (path.road().role == Role::rampart) add_wall(path, cost, options, nodes);
+  for (const Vec2 c : map.nodes_mm) {
+    std::uint32_t nozzles = 0;
+    for (std::size_t k = 0; k < cost.nozzles().size(); ++k)
+      nozzles |= std::uint32_t(TravelCost::reaches(cost.nozzles()[k], c)) << k;
+    map.reached_by.push_back(nozzles);
+  }
   add_arcs(map, cost);
   return map;
 }

@@ -31,10 +31,12 @@ struct Entry {
 struct Arc {
   std::uint32_t to = 0;
   float cost = 0;
+  float foreign = 0;  // the largest visibility of foreign plastic that it crosses
 };
 
 struct Roadmap {
   std::vector<Vec2> nodes_mm;
+  std::vector<std::uint32_t> reached_by;    // of each node: bit k: by the k-th nozzle of the cost
   std::vector<std::uint32_t> first_arc;     // of each node, and the end
   std::vector<Arc> arcs;                    // both ways
   std::vector<std::vector<Entry>> entries;  // of each path: of an open one its start and its end
@@ -49,6 +51,7 @@ struct RoadmapOptions {
   double clearance_mm = 1.6;  // of ways around what must not be crossed
   double pathway_mm = 2;      // between nodes of pathways
   double margin_mm = 6;       // beyond the paths
+  bool fixed_seams = false;   // closed paths are entered at their start alone
 };
 
 /// The roadmap of a layer whose paths are printed in this order. Closed paths of the rampart are entered at their start

@@ -115,6 +115,7 @@ Path seamed(Path loop, SeamPosition position, Vec2 from, SeamMemory& memory, std
       loop = started_at(std::move(loop), corner);
       break;
     }
+    case SeamPosition::hidden:
     case SeamPosition::aligned: {
       // The place itself is remembered, not the corner near it that may be taken: else the seam would wander off.
       const OnLoop place = aligned(loop, memory.below[e]);

@@ -16,14 +16,19 @@ std::uint32_t exit_of(const Path& path, std::uint32_t entry) {
   return path.closed ? entry : 1 - entry;
 }
 
-bool can_enter(const Path& path, std::uint32_t entry) {
-  return path.road().role != Role::rampart || entry == 0;
+/// Its index among the cost's nozzles.
+int nozzle_of(const TravelCost& cost, int extruder) {
+  const auto& all = cost.nozzles();
+  const auto found = std::ranges::find(all, extruder, &TravelCost::Nozzle::extruder);
+  assert(found != all.end());
+  return int(found - all.begin());
 }
 
 /// One shortest path search after another over the same nodes.
 class Search {
  public:
-  explicit Search(const Roadmap& map) : map_(map), cost_(map.nodes_mm.size()), before_(map.nodes_mm.size()) {}
+  Search(const Roadmap& map, const TravelCost& travel)
+      : map_(map), travel_(travel), cost_(map.nodes_mm.size()), before_(map.nodes_mm.size()) {}
 
   struct Seed {
     std::uint32_t node = 0;
@@ -32,15 +37,18 @@ class Search {
 
   /// Settles nodes from the seeds until all targets have their cost, or are `slack` dearer than the first.
   /// Predecessors of what was settled are appended to the log.
-  void run(std::span<const Seed> seeds, std::span<const std::uint32_t> targets, double slack) {
+  /// Only places that the nozzle in use reaches, an index of the cost's nozzles, are passed.
+  void run(std::span<const Seed> seeds, std::span<const std::uint32_t> targets, int nozzle, double slack) {
     std::ranges::fill(cost_, unreached);
+    way_mm_.resize(cost_.size());
+    dirty_mm_.resize(cost_.size());
     std::ranges::fill(before_, nobody);
     std::ranges::fill(wanted_, 0);
     wanted_.resize(cost_.size());
     heap_.clear();
     std::size_t open = 0;
     for (const std::uint32_t t : targets) open += wanted_[t] == 0, wanted_[t] = 1;
-    for (const Seed& s : seeds) offer(s.node, s.cost, nobody);
+    for (const Seed& s : seeds) offer(s.node, s.cost, 0, nobody);
     double end = unreached;
     while (!heap_.empty() && open > 0) {
       std::ranges::pop_heap(heap_, std::greater());
@@ -53,27 +61,56 @@ class Search {
         --open;
         if (end == unreached) end = cost + slack;
       }
-      for (const Arc& arc : map_.arcs_of(node)) offer(arc.to, cost + double(arc.cost), node);
+      for (const Arc& arc : map_.arcs_of(node)) {
+        const double length = distance(map_.nodes_mm[node], map_.nodes_mm[arc.to]);
+        double c = cost + double(arc.cost);
+        if (arc.foreign > 0) c += travel_.smear(double(arc.foreign), dirty_mm_[node] + length);
+        if (c >= cost_[arc.to]) continue;
+        if ((map_.reached_by[arc.to] >> nozzle & 1) == 0 && wanted_[arc.to] == 0) continue;
+        offer(arc.to, c, way_mm_[node] + length, node);
+        dirty_mm_[arc.to] = arc.foreign > 0 ? 0 : dirty_mm_[node] + length;
+      }
     }
     // What was reached but not settled is no shortest path yet.
     for (const std::uint32_t t : targets)
       if (wanted_[t] == 1) cost_[t] = unreached;
+    const auto is_reached = [&](std::uint32_t t) { return cost_[t] < unreached; };
+    if (std::ranges::none_of(targets, is_reached)) go_straight(seeds, targets);
   }
 
   double cost(std::uint32_t node) const { return cost_[node]; }
+  double way_mm(std::uint32_t node) const { return way_mm_[node]; }
   const std::vector<std::uint32_t>& before() const { return before_; }
 
  private:
-  void offer(std::uint32_t node, double cost, std::uint32_t from) {
+  /// Where places within reach do not hang together.
+  void go_straight(std::span<const Seed> seeds, std::span<const std::uint32_t> targets) {
+    std::ranges::fill(before_, nobody);
+    for (const Seed& s : seeds) cost_[s.node] = s.cost;
+    for (const std::uint32_t t : targets)
+      for (const Seed& s : seeds) {
+        const double c = s.cost + travel_.way(map_.nodes_mm[s.node], map_.nodes_mm[t]);
+        if (c >= cost_[t]) continue;
+        cost_[t] = c;
+        way_mm_[t] = distance(map_.nodes_mm[s.node], map_.nodes_mm[t]);
+        before_[t] = s.node == t ? nobody : s.node;
+      }
+  }
+
+  void offer(std::uint32_t node, double cost, double way_mm, std::uint32_t from) {
     if (cost >= cost_[node]) return;
     cost_[node] = cost;
+    way_mm_[node] = dirty_mm_[node] = way_mm;
     before_[node] = from;
     heap_.emplace_back(cost, node);
     std::ranges::push_heap(heap_, std::greater());
   }
 
   const Roadmap& map_;
+  const TravelCost& travel_;
   std::vector<double> cost_;
+  std::vector<double> way_mm_;    // from the seed
+  std::vector<double> dirty_mm_;  // since foreign plastic was touched
   std::vector<std::uint32_t> before_;
   std::vector<char> wanted_;
   std::vector<std::pair<double, std::uint32_t>> heap_;
@@ -102,7 +139,7 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
                         const TourOptions& options) {
   std::vector<Visit> visits(paths.size());
   if (paths.empty()) return visits;
-  Search search(map);
+  Search search(map, cost);
   // Of each stage: the cost of each entry with what it costs to enter, and the predecessors of all nodes.
   std::vector<std::vector<double>> entered(paths.size());
   std::vector<std::vector<std::uint32_t>> before(paths.size());
@@ -115,23 +152,19 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
           seeds.push_back({map.entries[k - 1][exit_of(paths[k - 1], i)].node, entered[k - 1][i]});
     }
     std::vector<std::uint32_t> targets;
-    for (std::uint32_t i = 0; i < entries.size(); ++i)
-      if (can_enter(paths[k], i)) targets.push_back(entries[i].node);
+    for (std::uint32_t i = 0; i < entries.size(); ++i) targets.push_back(entries[i].node);
     if (k > 0) {
-      search.run(seeds, targets, options.slack_mm);
+      search.run(seeds, targets, nozzle_of(cost, paths[k].extruder), options.slack_mm);
       before[k] = search.before();
     }
     for (std::uint32_t i = 0; i < entries.size(); ++i) {
-      double c = unreached;
-      if (can_enter(paths[k], i)) {
-        if (k > 0) {
-          c = search.cost(entries[i].node);
-        } else {
-          c = options.from_mm ? cost.way(*options.from_mm, map.nodes_mm[entries[i].node]) : 0;
-        }
-        c += cost.seam(entries[i].at_mm) + cost.seam(entries[exit_of(paths[k], i)].at_mm);
-        if (options.entry_cost) c += options.entry_cost(k, i);
+      double c = options.from_mm ? cost.way(*options.from_mm, map.nodes_mm[entries[i].node]) : 0;
+      if (k > 0) {
+        c = search.cost(entries[i].node);
+        if (paths[k].depth == 0) c += cost.hole(entries[i].at_mm, search.way_mm(entries[i].node));
       }
+      c += cost.seam(entries[i].at_mm) + cost.seam(entries[exit_of(paths[k], i)].at_mm);
+      if (options.entry_cost) c += options.entry_cost(k, i);
       entered[k].push_back(c);
     }
     // Numbers stay small: only differences count.
@@ -160,6 +193,28 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
     entry = best;
   }
   return visits;
+}
+
+std::vector<Vec2> way_in(const Roadmap& map, const TravelCost& cost, int extruder, Vec2 from_mm, std::uint32_t node) {
+  // The nearest places are tried as the first.
+  constexpr std::size_t tried = 24;
+  const int nozzle = nozzle_of(cost, extruder);
+  std::vector<std::pair<double, std::uint32_t>> near;
+  for (std::uint32_t i = 0; i < map.nodes_mm.size(); ++i)
+    if (map.reached_by[i] >> nozzle & 1) near.emplace_back(length_squared(map.nodes_mm[i] - from_mm), i);
+  std::ranges::partial_sort(near, near.begin() + std::ptrdiff_t(std::min(tried, near.size())));
+  std::vector<Search::Seed> seeds{{node, cost.way(from_mm, map.nodes_mm[node])}};
+  for (std::size_t i = 0; i < std::min(tried, near.size()); ++i)
+    seeds.push_back({near[i].second, cost.way(from_mm, map.nodes_mm[near[i].second])});
+  Search search(map, cost);
+  search.run(seeds, std::span(&node, 1), nozzle, 0);
+  std::vector<Vec2> way{map.nodes_mm[node]};
+  for (std::uint32_t n = node; search.before()[n] != nobody; n = search.before()[n])
+    way.push_back(map.nodes_mm[search.before()[n]]);
+  way.push_back(from_mm);
+  std::ranges::reverse(way);
+  pull(way, cost);
+  return {way.begin() + 1, way.end() - 1};
 }
 
 Path begun(Path path, const Roadmap& map, std::size_t index, std::uint32_t entry) {

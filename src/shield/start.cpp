@@ -96,33 +96,57 @@ double exposure_mm(const Meeting& m, const std::vector<double>& step_mm, std::si
 
 }  // namespace
 
-WallStart wall_start(const Path& wall, const WallScene& scene, Vec2 from_mm) {
-  const std::vector<Place> places = places_of(wall);
-  const std::size_t steps = wall.closed ? places.size() : places.size() - 1;
-  std::vector<double> step_mm(steps);
-  for (std::size_t s = 0; s < steps; ++s) step_mm[s] = distance(places[s].at_mm, places[(s + 1) % places.size()].at_mm);
-  std::vector<Meeting> meetings;
-  for (const Vec2 idle : scene.idle_mm) meetings.push_back(meeting(places, steps, idle, scene));
+namespace {
 
+/// The wall in steps, and what idle nozzles meet beside them.
+struct Walk {
+  std::vector<Place> places;
+  std::vector<double> step_mm;
+  std::vector<Meeting> meetings;
+
+  Walk(const Path& wall, const WallScene& scene) : places(places_of(wall)) {
+    step_mm.resize(wall.closed ? places.size() : places.size() - 1);
+    for (std::size_t s = 0; s < step_mm.size(); ++s)
+      step_mm[s] = distance(places[s].at_mm, places[(s + 1) % places.size()].at_mm);
+    for (const Vec2 idle : scene.idle_mm) meetings.push_back(meeting(places, step_mm.size(), idle, scene));
+  }
+
+  /// Begun at a place; sums beyond the bound need not be exact.
+  double exposed_mm(std::size_t place, bool backwards, double bound_mm) const {
+    // Backwards, the first step is the one before the place.
+    const std::size_t first = backwards ? (place + step_mm.size() - 1) % step_mm.size() : place;
+    double sum = 0;
+    for (const Meeting& m : meetings) sum += exposure_mm(m, step_mm, first, backwards, bound_mm);
+    return sum;
+  }
+};
+
+}  // namespace
+
+double exposure_mm(const Path& open_wall, const WallScene& scene, bool backwards) {
+  const Walk walk(open_wall, scene);
+  return walk.exposed_mm(backwards ? walk.places.size() - 1 : 0, backwards, std::numeric_limits<double>::infinity());
+}
+
+WallStart wall_start(const Path& wall, const WallScene& scene, Vec2 from_mm) {
+  const Walk walk(wall, scene);
   WallStart best{.exposure_mm = std::numeric_limits<double>::infinity()};
   double best_mm = 0;
   const auto offer = [&](std::size_t place, bool backwards) {
-    // Backwards, the first step is the one before the place.
-    const std::size_t first = backwards ? (place + steps - 1) % steps : place;
-    double sum = 0;
-    for (const Meeting& m : meetings) sum += exposure_mm(m, step_mm, first, backwards, best.exposure_mm);
-    const double way_mm = distance(places[place].at_mm, from_mm);
+    const double sum = walk.exposed_mm(place, backwards, best.exposure_mm);
+    const Place& p = walk.places[place];
+    const double way_mm = distance(p.at_mm, from_mm);
     const bool better = sum < best.exposure_mm - same_exposure_mm;
     if (!better && (sum > best.exposure_mm + same_exposure_mm || way_mm >= best_mm)) return;
-    best = {places[place].segment, places[place].at_mm, backwards, sum};
+    best = {p.segment, p.at_mm, backwards, sum};
     best_mm = way_mm;
   };
   if (wall.closed) {
-    for (std::size_t p = 0; p < places.size(); ++p)
+    for (std::size_t p = 0; p < walk.places.size(); ++p)
       for (const bool backwards : {false, true}) offer(p, backwards);
   } else {
     offer(0, false);
-    offer(places.size() - 1, true);
+    offer(walk.places.size() - 1, true);
   }
   return best;
 }

@@ -36,6 +36,10 @@ struct WallStart {
 /// Cost: quadratic in the wall's length in mm for each idle nozzle, some 0.2 ms for 300 mm.
 WallStart wall_start(const Path& wall, const WallScene& scene, Vec2 from_mm);
 
+/// Way of idle nozzles over the part before their first wipe, if an open wall is printed as it is, or from its other
+/// end.
+double exposure_mm(const Path& open_wall, const WallScene& scene, bool backwards);
+
 /// The wall begun so.
 Path begun(Path wall, const WallStart& start);
 
