@@ -15,8 +15,11 @@ constexpr double overlap_mm = 0.05;  // a border that the layer above lies this 
 
 }  // namespace
 
-LayerMap::LayerMap(const LayerScene& scene, const SurfaceVisibility& visibility, double cell_mm)
+LayerMap::LayerMap(const LayerScene& scene, std::span<const Path> walls, const SurfaceVisibility& visibility,
+                   double cell_mm)
     : box_(bounds_mm(scene.outline)) {
+  for (const Path& wall : walls)
+    for (const Vec2 p : wall.points) box_.add(p);
   if (box_.empty()) return;
   const Vec2 size = box_.size();
   while ((size.x / cell_mm + 2) * (size.y / cell_mm + 2) > most_cells) cell_mm *= 1.1;
@@ -45,6 +48,26 @@ LayerMap::LayerMap(const LayerScene& scene, const SurfaceVisibility& visibility,
   for_cells(offset(outline, -scene.wall_width_mm), [&](std::size_t i) { covered[i] = 1; });
   for_cells(offset(simplified(scene.above, detail_mm), overlap_mm), [&](std::size_t i) { covered[i] |= 2; });
   see(scene, visibility, covered);
+  // More than can be told apart count as the last.
+  for (std::size_t w = 0; w < walls.size(); ++w) draw(walls[w], std::uint8_t(std::min<std::size_t>(w + 1, 255)));
+}
+
+/// A line as wide as three cells.
+void LayerMap::draw(const Path& wall, std::uint8_t index) {
+  const double step_mm = 0.8 / per_mm_;
+  for (std::size_t i = 0; i < wall.segments(); ++i) {
+    const Vec2 a = wall.points[i], b = wall.points[(i + 1) % wall.points.size()];
+    const int steps = int(distance(a, b) / step_mm) + 1;
+    for (int k = 0; k <= steps; ++k) {
+      const Vec2 p = (lerp(a, b, double(k) / steps) - origin_) * per_mm_;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int x = std::clamp(int(p.x) + dx, 0, columns_ - 1), y = std::clamp(int(p.y) + dy, 0, rows_ - 1);
+          Cell& cell = cells_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
+          if (cell.extruder == air) cell.wall = index;
+        }
+    }
+  }
 }
 
 void LayerMap::see(const LayerScene& scene, const SurfaceVisibility& visibility, const std::vector<char>& covered) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/polygon.hpp"
+#include "toolpath/path.hpp"
 #include "visibility/visibility.hpp"
 
 namespace cleancolor {
@@ -31,11 +32,13 @@ class LayerMap {
   struct Cell {
     std::uint8_t extruder = air;
     std::uint8_t visibility = 0;  // x 255; 0: hidden
+    std::uint8_t wall = 0;        // of the rampart: its index + 1; 0: none
   };
 
   /// Cells of cell_mm, larger where there would be more than 4 million.
   /// Cost: about 1 ms for 100 000 cells.
-  LayerMap(const LayerScene& scene, const SurfaceVisibility& visibility, double cell_mm = 0.125);
+  LayerMap(const LayerScene& scene, std::span<const Path> walls, const SurfaceVisibility& visibility,
+           double cell_mm = 0.125);
 
   Cell at(Vec2 p_mm) const {
     const int x = int((p_mm.x - origin_.x) * per_mm_), y = int((p_mm.y - origin_.y) * per_mm_);
@@ -47,6 +50,7 @@ class LayerMap {
   const Box<Vec2>& box_mm() const { return box_; }
 
  private:
+  void draw(const Path& wall, std::uint8_t index);
   void see(const LayerScene& scene, const SurfaceVisibility& visibility, const std::vector<char>& covered);
 
   Box<Vec2> box_;

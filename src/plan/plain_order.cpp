@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "plan/precedence.hpp"
 #include "shield/start.hpp"
 
 namespace cleancolor {
@@ -18,49 +19,9 @@ double distance_to(const Path& path, Vec2 p) {
   return least;
 }
 
-bool is_loop(const Path& path) {
-  return path.depth != fill_depth;
-}
-
 /// Squared distance from p to the box; 0 inside.
 double distance_to(const Box<Vec2>& box, Vec2 p) {
   return length_squared(p - Vec2{std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)});
-}
-
-/// Squared distance from p to the nearest place of the path.
-double distance_to_line(const Path& path, Vec2 p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < path.segments(); ++i) {
-    const Vec2 a = path.points[i], ab = path.points[(i + 1) % path.points.size()] - a;
-    const double squared = length_squared(ab);
-    const double t = squared > 0 ? std::clamp(dot(p - a, ab) / squared, 0.0, 1.0) : 0;
-    least = std::min(least, length_squared(p - (a + ab * t)));
-  }
-  return least;
-}
-
-/// For each loop the one that lies next to it on the side of the outline: the nearest of those a step less deep, as
-/// seen from its first point; -1 where there is none.
-std::vector<int> outer_loops(const std::vector<Path>& paths) {
-  std::map<int, std::vector<int>> by_depth;
-  for (std::size_t i = 0; i < paths.size(); ++i)
-    if (is_loop(paths[i])) by_depth[paths[i].depth].push_back(int(i));
-  std::vector<int> result(paths.size(), -1);
-  for (const auto& [depth, loops] : by_depth) {
-    const auto outside = by_depth.find(depth - 1);
-    if (outside == by_depth.end()) continue;
-    for (const int i : loops) {
-      const auto distance = [&](int k) {
-        return distance_to_line(paths[std::size_t(k)], paths[std::size_t(i)].start());
-      };
-      const std::vector<int>& around = outside->second;
-      result[std::size_t(i)] =
-          around.size() == 1 ? around.front() : *std::min_element(around.begin(), around.end(), [&](int a, int b) {
-            return distance(a) < distance(b);
-          });
-    }
-  }
-  return result;
 }
 
 constexpr std::size_t walls_compared = 8;

@@ -1,9 +1,11 @@
 #include "plan/planner.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <span>
 
+#include "plan/exposure_order.hpp"
 #include "plan/tour.hpp"
 #include "shield/start.hpp"
 
@@ -49,7 +51,10 @@ PlannedLayer::PlannedLayer(Layer layer, OrderState& state, const Config& config,
     : layer_(std::move(layer)), config_(&config) {
   order(layer_, state, config, scene.site);
   if (layer_.paths.empty()) return;
-  map_ = std::make_unique<LayerMap>(scene.part, visibility);
+  std::vector<Path> walls;
+  for (const Path& path : layer_.paths)
+    if (path.road().role == Role::rampart) walls.push_back(path);
+  map_ = std::make_unique<LayerMap>(scene.part, walls, visibility);
   // Nozzles that leave the print while they idle are planned for one after the other.
   const std::vector<Path>& paths = layer_.paths;
   for (std::size_t first = 0, last = 0; first < paths.size(); first = last) {
@@ -68,6 +73,179 @@ PlannedLayer::~PlannedLayer() = default;
 PlannedLayer::PlannedLayer(PlannedLayer&&) noexcept = default;
 PlannedLayer& PlannedLayer::operator=(PlannedLayer&&) noexcept = default;
 
+namespace {
+
+/// Paths of one extruder, one after the other.
+struct Turn {
+  std::size_t first = 0, part = 0, last = 0;  // of the paths; those of the part begin at `part`
+};
+
+std::vector<Turn> turns_of(std::span<const Path> paths) {
+  std::vector<Turn> turns;
+  for (std::size_t i = 0; i < paths.size();) {
+    Turn t{.first = i, .part = i, .last = i};
+    while (t.last < paths.size() && paths[t.last].extruder == paths[i].extruder) ++t.last;
+    while (t.part < t.last && paths[t.part].island < 0) ++t.part;
+    turns.push_back(t);
+    i = t.last;
+  }
+  return turns;
+}
+
+/// Puts the paths of each turn into the order of least predicted ooze, and the roadmap's entries with them.
+class Reorder {
+ public:
+  Reorder(std::span<Path> paths, Roadmap& roads, const TravelCost& cost, const Config& config, std::uint32_t seed)
+      : paths_(paths), roads_(roads), cost_(cost), config_(config), seed_(seed), entry_cost_(paths.size()) {
+    weights_.travel_mm_s = config.travel_speed_mm_s;
+    mm_of_mm3_ = config.travel_speed_mm_s / weights_.s_mm3;
+  }
+
+  /// visits: a first tour through the paths as they are.
+  void run(const std::vector<Visit>& visits) {
+    begun_.clear();
+    for (std::size_t k = 0; k < paths_.size(); ++k) begun_.push_back(begun(paths_[k], roads_, k, visits[k].entry));
+    start_layer();
+    for (const Turn& turn : turns_of(paths_)) {
+      const std::uint64_t before = standing_;
+      build_walls(turn);
+      take(turn, before);
+    }
+  }
+
+  /// What a path makes idle nozzles smear when it is entered there, in mm of way.
+  double entry_cost(std::size_t path, std::uint32_t entry) const {
+    return entry < entry_cost_[path].size() ? entry_cost_[path][entry] : 0;
+  }
+
+  /// What a tour through the paths in their present order is predicted to spoil, in mm of way.
+  double predicted_cost(const std::vector<Visit>& visits) {
+    begun_.clear();
+    for (std::size_t k = 0; k < paths_.size(); ++k) begun_.push_back(begun(paths_[k], roads_, k, visits[k].entry));
+    start_layer();
+    double sum = 0;
+    for (const Turn& turn : turns_of(paths_)) {
+      std::uint64_t walls = standing_;
+      build_walls(turn);
+      for (std::size_t k = turn.first; k < turn.last; ++k) {
+        if (k == turn.part) walls = standing_;
+        sum += visits[k].travel_cost + mm_of_mm3_ * print(k, visits[k].travel_way_mm, walls);
+      }
+    }
+    return sum;
+  }
+
+ private:
+  /// The others have been idle since the layer below; what hangs on them is a guess until they cross a wall.
+  void start_layer() {
+    double first_s = 0;
+    const Turn turn = turns_of(paths_).front();
+    for (std::size_t k = turn.first; k < turn.last; ++k) first_s += seconds_of(begun_[k]);
+    states_.clear();
+    for (const auto& n : cost_.nozzles())
+      states_.push_back({n.extruder, n.offset_mm, {model_.left(first_s), 0.1 * model_.volume_mm3}});
+    standing_ = 0;
+    walls_ = 0;
+  }
+
+  void build_walls(const Turn& turn) {
+    for (std::size_t k = turn.first; k < turn.part; ++k)
+      if (paths_[k].road().role == Role::rampart) standing_ |= std::uint64_t(1) << std::min(walls_++, 63);
+  }
+
+  Vec2 offset_mm(int extruder) const {
+    const auto is_it = [&](const HangingNozzle& n) { return n.extruder == extruder; };
+    return std::ranges::find_if(states_, is_it)->offset_mm;
+  }
+
+  /// Prints path k as it is begun: what it smears and lacks, mm3.
+  double print(std::size_t k, double way_mm, std::uint64_t walls) {
+    const Path& path = begun_[k];
+    const Vec2 own = offset_mm(path.extruder);
+    const double hop_left = model_.left(way_mm / weights_.travel_mm_s + weights_.hop_s);
+    double sum = 0;
+    if (path.depth == 0)
+      sum += weights_.hole_weight * model_.volume_mm3 * (1 - hop_left) * cost_.visibility(path.start());
+    for (HangingNozzle& n : states_) {
+      if (n.extruder == path.extruder) {
+        n.state = {};
+        continue;
+      }
+      n.state.carried_mm3 += model_.volume_mm3 * n.state.left * (1 - hop_left);
+      n.state.left *= hop_left;
+      const TouchTrack track(path, n.offset_mm - own, n.extruder, cost_.map(), walls);
+      sum += track.forwards(model_).apply(n.state, model_);
+    }
+    return sum;
+  }
+
+  void take(const Turn& turn, std::uint64_t before) {
+    const int extruder = paths_[turn.first].extruder;
+    const Vec2 own = offset_mm(extruder);
+    ExposureRun run{.walls = std::span(begun_).subspan(turn.first, turn.part - turn.first),
+                    .paths = std::span(begun_).subspan(turn.part, turn.last - turn.part),
+                    .standing = before,
+                    .own_walls = standing_,
+                    .hanging = {},
+                    .from_mm = begun_[turn.first].start(),
+                    .external_first = config_.external_perimeters_first,
+                    .seed = seed_};
+    for (const HangingNozzle& n : states_)
+      if (n.extruder != extruder) run.hanging.push_back({n.extruder, n.offset_mm - own, n.state});
+    const ExposureOrder best = exposure_order(run, cost_.map(), model_, weights_);
+    permute(turn, best.order);
+    for (std::size_t k = 0; k < best.order.size(); ++k) judge_entries(turn.part + k, run.hanging, best.at_start[k]);
+    std::size_t k = 0;
+    for (HangingNozzle& n : states_) n.state = n.extruder == extruder ? IdleState{} : best.after[k++].state;
+  }
+
+  void permute(const Turn& turn, const std::vector<int>& order) {
+    std::vector<Path> paths;
+    std::vector<std::vector<Entry>> entries;
+    for (const int i : order) {
+      paths.push_back(std::move(paths_[turn.part + std::size_t(i)]));
+      entries.push_back(std::move(roads_.entries[turn.part + std::size_t(i)]));
+    }
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      paths_[turn.part + k] = std::move(paths[k]);
+      roads_.entries[turn.part + k] = std::move(entries[k]);
+    }
+  }
+
+  void judge_entries(std::size_t k, const std::vector<HangingNozzle>& hanging, const std::vector<IdleState>& states) {
+    constexpr double left_over = 0.1;  // of what still hangs on a tip is taken to be smeared later
+    const Path& path = paths_[k];
+    const std::vector<Entry>& entries = roads_.entries[k];
+    entry_cost_[k].assign(entries.size(), 0);
+    for (std::size_t h = 0; h < states.size(); ++h) {
+      const TouchTrack track(path, hanging[h].offset_mm, hanging[h].extruder, cost_.map(), standing_);
+      for (std::size_t e = 0; e < entries.size(); ++e) {
+        IdleState state = states[h];
+        const double from_s = path.closed ? track.seconds_at(path, entries[e].segment, entries[e].at_mm) : 0;
+        const Touches touches = !path.closed && e == 1 ? track.backwards(model_) : track.forwards(model_, from_s);
+        const double smeared = touches.apply(state, model_);
+        entry_cost_[k][e] += mm_of_mm3_ * (smeared + left_over * state.carried_mm3);
+      }
+    }
+  }
+
+  std::span<Path> paths_;
+  Roadmap& roads_;
+  const TravelCost& cost_;
+  const Config& config_;
+  std::uint32_t seed_;
+  OozeModel model_;
+  OrderWeights weights_;
+  double mm_of_mm3_ = 0;
+  std::vector<Path> begun_;
+  std::vector<HangingNozzle> states_;  // of all nozzles; offsets are the carriage's
+  std::uint64_t standing_ = 0;         // walls of the layer so far
+  int walls_ = 0;
+  std::vector<std::vector<double>> entry_cost_;
+};
+
+}  // namespace
+
 void PlannedLayer::plan_run(std::size_t first, std::size_t last, std::vector<int> nozzles, const PlanScene& scene) {
   std::vector<TravelCost::Nozzle> hanging;
   for (const int e : nozzles) {
@@ -77,8 +255,23 @@ void PlannedLayer::plan_run(std::size_t first, std::size_t last, std::vector<int
   const std::span<Path> paths = std::span(layer_.paths).subspan(first, last - first);
   Run run{.cost = TravelCost(*map_, std::move(hanging), {}), .roads = {}};
   run.roads = roadmap(paths, run.cost, {.fixed_seams = config_->seam_position != SeamPosition::hidden});
-  const std::vector<Visit> visits =
-      tour(run.roads, paths, run.cost, {.entry_cost = wall_cost(paths, run.cost, scene.site.part)});
+  const auto walls = wall_cost(paths, run.cost, scene.site.part);
+  Reorder reorder(paths, run.roads, run.cost, *config_, std::uint32_t(layer_.index));
+  std::vector<Visit> visits = tour(run.roads, paths, run.cost, {.entry_cost = walls});
+  const double plain_cost = reorder.predicted_cost(visits);
+  const std::vector<Path> plain(paths.begin(), paths.end());
+  const std::vector<std::vector<Entry>> plain_entries = run.roads.entries;
+  reorder.run(visits);
+  const auto entry_cost = [&](std::size_t path, std::uint32_t entry) {
+    return walls(path, entry) + reorder.entry_cost(path, entry);
+  };
+  std::vector<Visit> better = tour(run.roads, paths, run.cost, {.entry_cost = entry_cost});
+  if (reorder.predicted_cost(better) <= plain_cost) {
+    visits = std::move(better);
+  } else {
+    std::ranges::copy(plain, paths.begin());
+    run.roads.entries = plain_entries;
+  }
   run.first_node = run.roads.entries[0][visits[0].entry].node;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     paths[k] = begun(std::move(paths[k]), run.roads, k, visits[k].entry);

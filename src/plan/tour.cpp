@@ -181,7 +181,10 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
     for (; before[k][node] != nobody; node = before[k][node]) way.push_back(map.nodes_mm[before[k][node]]);
     std::ranges::reverse(way);
     pull(way, cost);
-    for (std::size_t i = 0; i + 1 < way.size(); ++i) visits[k].travel_cost += cost.way(way[i], way[i + 1]);
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+      visits[k].travel_cost += cost.way(way[i], way[i + 1]);
+      visits[k].travel_way_mm += distance(way[i], way[i + 1]);
+    }
     visits[k].travel_mm.assign(way.begin() + 1, way.end() - (way.size() > 1 ? 1 : 0));
     // Of the entries of the path before that are left here, the cheapest.
     std::uint32_t best = nobody;

@@ -25,6 +25,7 @@ struct Visit {
   std::uint32_t entry = 0;      // of Roadmap::entries of the path
   std::vector<Vec2> travel_mm;  // places of the carriage on the way here, both ends left out
   double travel_cost = 0;
+  double travel_way_mm = 0;
 };
 
 struct TourOptions {

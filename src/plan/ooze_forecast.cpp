@@ -1,0 +1,80 @@
+#include "plan/ooze_forecast.hpp"
+
+#include <algorithm>
+
+namespace cleancolor {
+namespace {
+
+constexpr double step_mm = 0.25;
+
+/// The road of each segment of a path, segments ascending.
+class RoadOf {
+ public:
+  explicit RoadOf(const Path& path) : path_(path) {}
+  const Road& operator()(std::size_t segment) {
+    while (next_ < path_.stretches.size() && path_.stretches[next_].first_segment <= segment) ++next_;
+    return path_.stretches[next_ - 1].road;
+  }
+
+ private:
+  const Path& path_;
+  std::size_t next_ = 1;
+};
+
+}  // namespace
+
+double seconds_of(const Path& path) {
+  RoadOf road(path);
+  double sum = 0;
+  for (std::size_t i = 0; i < path.segments(); ++i)
+    sum += distance(path.points[i], path.points[(i + 1) % path.points.size()]) / road(i).speed_mm_s;
+  return sum;
+}
+
+TouchTrack::TouchTrack(const Path& path, Vec2 offset_mm, int idle, const LayerMap& map, std::uint64_t walls) {
+  RoadOf road(path);
+  for (std::size_t i = 0; i < path.segments(); ++i) {
+    const Vec2 a = path.points[i] + offset_mm, b = path.points[(i + 1) % path.points.size()] + offset_mm;
+    const double length = distance(a, b), s_mm = 1 / road(i).speed_mm_s;
+    begin_s_.push_back(all_s_);
+    s_mm_.push_back(s_mm);
+    const int steps = int(length / step_mm) + 1;
+    for (int k = 0; k < steps; ++k) {
+      const LayerMap::Cell cell = map.at(lerp(a, b, (k + 0.5) / steps));
+      const bool smears = cell.visibility > 0 && cell.extruder != idle;
+      const bool wipes = cell.wall != 0 && (walls >> std::min(cell.wall - 1, 63) & 1) != 0;
+      if (smears || wipes)
+        touches_.push_back({all_s_ + length * s_mm * (k + 0.5) / steps, smears ? cell.visibility / 255. : 0});
+    }
+    all_s_ += length * s_mm;
+  }
+}
+
+void TouchTrack::add(Touches& t, double left, double visibility) {
+  if (!t.any) {
+    t.any = true;
+    t.first_visibility = visibility;
+    t.left_first = left;
+  } else {
+    t.later += visibility * (t.left_last - left);
+  }
+  t.left_last = left;
+}
+
+Touches TouchTrack::forwards(const OozeModel& model, double from_s) const {
+  Touches t;
+  const auto first = std::ranges::lower_bound(touches_, from_s, {}, &Touch::at_s);
+  for (auto it = first; it != touches_.end(); ++it) add(t, model.left(it->at_s - from_s), it->visibility);
+  for (auto it = touches_.begin(); it != first; ++it) add(t, model.left(it->at_s + all_s_ - from_s), it->visibility);
+  t.left_end = model.left(all_s_);
+  return t;
+}
+
+Touches TouchTrack::backwards(const OozeModel& model) const {
+  Touches t;
+  for (std::size_t i = touches_.size(); i-- > 0;) add(t, model.left(all_s_ - touches_[i].at_s), touches_[i].visibility);
+  t.left_end = model.left(all_s_);
+  return t;
+}
+
+}  // namespace cleancolor

@@ -1,0 +1,67 @@
+#include "plan/precedence.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace cleancolor {
+namespace {
+
+/// Squared distance from p to the nearest place of the path.
+double distance_to_line(const Path& path, Vec2 p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < path.segments(); ++i) {
+    const Vec2 a = path.points[i], ab = path.points[(i + 1) % path.points.size()] - a;
+    const double squared = length_squared(ab);
+    const double t = squared > 0 ? std::clamp(dot(p - a, ab) / squared, 0.0, 1.0) : 0;
+    least = std::min(least, length_squared(p - (a + ab * t)));
+  }
+  return least;
+}
+
+}  // namespace
+
+std::vector<int> outer_loops(std::span<const Path> paths) {
+  std::map<int, std::vector<int>> by_depth;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    if (is_loop(paths[i])) by_depth[paths[i].depth].push_back(int(i));
+  std::vector<int> result(paths.size(), -1);
+  for (const auto& [depth, loops] : by_depth) {
+    const auto outside = by_depth.find(depth - 1);
+    if (outside == by_depth.end()) continue;
+    for (const int i : loops) {
+      const auto distance = [&](int k) {
+        return distance_to_line(paths[std::size_t(k)], paths[std::size_t(i)].start());
+      };
+      const std::vector<int>& around = outside->second;
+      result[std::size_t(i)] =
+          around.size() == 1 ? around.front() : *std::min_element(around.begin(), around.end(), [&](int a, int b) {
+            return distance(a) < distance(b);
+          });
+    }
+  }
+  return result;
+}
+
+std::vector<std::vector<int>> precedence(std::span<const Path> paths, bool external_first) {
+  std::vector<std::vector<int>> before(paths.size());
+  std::map<int, std::vector<int>> islands;
+  for (std::size_t i = 0; i < paths.size(); ++i) islands[paths[i].island].push_back(int(i));
+  for (const auto& [island, own] : islands) {
+    std::vector<Path> copies;
+    for (const int i : own) copies.push_back(paths[std::size_t(i)]);
+    const std::vector<int> outer = outer_loops(copies);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (!is_loop(copies[k])) {
+        for (std::size_t l = 0; l < own.size(); ++l)
+          if (is_loop(copies[l])) before[std::size_t(own[k])].push_back(own[l]);
+      } else if (outer[k] >= 0) {
+        const int out = own[std::size_t(outer[k])];
+        before[std::size_t(external_first ? own[k] : out)].push_back(external_first ? out : own[k]);
+      }
+    }
+  }
+  return before;
+}
+
+}  // namespace cleancolor
