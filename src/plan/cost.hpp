@@ -27,9 +27,9 @@ struct TravelWeights {
   double foreign = 100;    // beside it, x visibility
   double own = 30;         // x visibility
   double hidden = 0.5;
-  double seam = 100;  // x visibility
+  double seam = 300;  // x visibility
   double smear = 20;  // for each mm of way before foreign plastic is touched, x its visibility
-  double hole = 20;   // for each mm of way before an outer wall, x visibility of its start
+  double hole = 60;   // for each mm of way before an outer wall, x visibility of its start
 };
 
 /// Of one mm, beside the 1 of the way itself, for one nozzle.

@@ -224,7 +224,7 @@ class Reorder {
         const double from_s = path.closed ? track.seconds_at(path, entries[e].segment, entries[e].at_mm) : 0;
         const Touches touches = !path.closed && e == 1 ? track.backwards(model_) : track.forwards(model_, from_s);
         const double smeared = touches.apply(state, model_);
-        entry_cost_[k][e] += mm_of_mm3_ * (smeared + left_over * state.carried_mm3);
+        entry_cost_[k][e] += (path.closed ? 0.1 : 1.) * mm_of_mm3_ * (smeared + left_over * state.carried_mm3);
       }
     }
   }

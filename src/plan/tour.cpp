@@ -35,10 +35,10 @@ class Search {
     double cost = 0;
   };
 
-  /// Settles nodes from the seeds until all targets have their cost, or are `slack` dearer than the first.
-  /// Predecessors of what was settled are appended to the log.
-  /// Only places that the nozzle in use reaches, an index of the cost's nozzles, are passed.
-  void run(std::span<const Seed> seeds, std::span<const std::uint32_t> targets, int nozzle, double slack) {
+  /// Settles nodes from the seeds until all targets have their cost, or are more than `slack` dearer than the best,
+  /// with what entering there costs. Predecessors of what was settled are appended to the log. Only places that the
+  /// nozzle in use reaches, an index of the cost's nozzles, are passed.
+  void run(std::span<const Seed> seeds, std::span<const Seed> targets, int nozzle, double slack) {
     std::ranges::fill(cost_, unreached);
     way_mm_.resize(cost_.size());
     dirty_mm_.resize(cost_.size());
@@ -47,7 +47,12 @@ class Search {
     wanted_.resize(cost_.size());
     heap_.clear();
     std::size_t open = 0;
-    for (const std::uint32_t t : targets) open += wanted_[t] == 0, wanted_[t] = 1;
+    extra_.resize(cost_.size());
+    for (const Seed& t : targets) {
+      open += wanted_[t.node] == 0;
+      extra_[t.node] = wanted_[t.node] == 0 ? t.cost : std::min(extra_[t.node], t.cost);
+      wanted_[t.node] = 1;
+    }
     for (const Seed& s : seeds) offer(s.node, s.cost, 0, nobody);
     double end = unreached;
     while (!heap_.empty() && open > 0) {
@@ -59,7 +64,7 @@ class Search {
       if (wanted_[node] == 1) {
         wanted_[node] = 2;
         --open;
-        if (end == unreached) end = cost + slack;
+        end = std::min(end, cost + extra_[node] + slack);
       }
       for (const Arc& arc : map_.arcs_of(node)) {
         const double length = distance(map_.nodes_mm[node], map_.nodes_mm[arc.to]);
@@ -72,9 +77,9 @@ class Search {
       }
     }
     // What was reached but not settled is no shortest path yet.
-    for (const std::uint32_t t : targets)
-      if (wanted_[t] == 1) cost_[t] = unreached;
-    const auto is_reached = [&](std::uint32_t t) { return cost_[t] < unreached; };
+    for (const Seed& t : targets)
+      if (wanted_[t.node] == 1) cost_[t.node] = unreached;
+    const auto is_reached = [&](const Seed& t) { return cost_[t.node] < unreached; };
     if (std::ranges::none_of(targets, is_reached)) go_straight(seeds, targets);
   }
 
@@ -84,10 +89,10 @@ class Search {
 
  private:
   /// Where places within reach do not hang together.
-  void go_straight(std::span<const Seed> seeds, std::span<const std::uint32_t> targets) {
+  void go_straight(std::span<const Seed> seeds, std::span<const Seed> targets) {
     std::ranges::fill(before_, nobody);
     for (const Seed& s : seeds) cost_[s.node] = s.cost;
-    for (const std::uint32_t t : targets)
+    for (const auto& [t, extra] : targets)
       for (const Seed& s : seeds) {
         const double c = s.cost + travel_.way(map_.nodes_mm[s.node], map_.nodes_mm[t]);
         if (c >= cost_[t]) continue;
@@ -112,6 +117,7 @@ class Search {
   std::vector<double> way_mm_;    // from the seed
   std::vector<double> dirty_mm_;  // since foreign plastic was touched
   std::vector<std::uint32_t> before_;
+  std::vector<double> extra_;  // of targets: what entering there costs
   std::vector<char> wanted_;
   std::vector<std::pair<double, std::uint32_t>> heap_;
 };
@@ -151,8 +157,12 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
         if (entered[k - 1][i] < unreached)
           seeds.push_back({map.entries[k - 1][exit_of(paths[k - 1], i)].node, entered[k - 1][i]});
     }
-    std::vector<std::uint32_t> targets;
-    for (std::uint32_t i = 0; i < entries.size(); ++i) targets.push_back(entries[i].node);
+    std::vector<Search::Seed> targets;
+    for (std::uint32_t i = 0; i < entries.size(); ++i) {
+      double extra = cost.seam(entries[i].at_mm) + cost.seam(entries[exit_of(paths[k], i)].at_mm);
+      if (options.entry_cost) extra += options.entry_cost(k, i);
+      targets.push_back({entries[i].node, extra});
+    }
     if (k > 0) {
       search.run(seeds, targets, nozzle_of(cost, paths[k].extruder), options.slack_mm);
       before[k] = search.before();
@@ -163,8 +173,7 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
         c = search.cost(entries[i].node);
         if (paths[k].depth == 0) c += cost.hole(entries[i].at_mm, search.way_mm(entries[i].node));
       }
-      c += cost.seam(entries[i].at_mm) + cost.seam(entries[exit_of(paths[k], i)].at_mm);
-      if (options.entry_cost) c += options.entry_cost(k, i);
+      c += targets[i].cost;
       entered[k].push_back(c);
     }
     // Numbers stay small: only differences count.
@@ -210,7 +219,8 @@ std::vector<Vec2> way_in(const Roadmap& map, const TravelCost& cost, int extrude
   for (std::size_t i = 0; i < std::min(tried, near.size()); ++i)
     seeds.push_back({near[i].second, cost.way(from_mm, map.nodes_mm[near[i].second])});
   Search search(map, cost);
-  search.run(seeds, std::span(&node, 1), nozzle, 0);
+  const Search::Seed target{node, 0};
+  search.run(seeds, std::span(&target, 1), nozzle, 0);
   std::vector<Vec2> way{map.nodes_mm[node]};
   for (std::uint32_t n = node; search.before()[n] != nobody; n = search.before()[n])
     way.push_back(map.nodes_mm[search.before()[n]]);
