@@ -21,10 +21,12 @@ struct Item {
   double seconds = 0;
   double start_visibility = 0;  // of outer walls; 0 elsewhere
   bool open = false;
+  int row = -1;  // of ExposureRun::detours
 };
 
 struct State {
   Vec2 at_mm;
+  int row = -1;  // of the island that it is in
   std::array<IdleState, most_hanging> idle;
   double smear_mm3 = 0, hole_mm3 = 0, seconds = 0;
 };
@@ -37,7 +39,10 @@ class OrderSearch {
     for (std::size_t k = 0; k < count_; ++k) begin_.idle[k] = run.hanging[k].state;
     for (const Path& wall : run.walls) step(begin_, item(wall, map, run.standing), 0);
     begin_.smear_mm3 = begin_.hole_mm3 = begin_.seconds = 0;
-    for (const Path& path : run.paths) items_.push_back(item(path, map, run.own_walls));
+    for (std::size_t i = 0; i < run.paths.size(); ++i) {
+      items_.push_back(item(run.paths[i], map, run.own_walls));
+      if (!run.detours.empty()) items_.back().row = run.island_row[i];
+    }
     before_ = precedence(run.paths, run.external_first);
     order_.resize(items_.size());
     std::iota(order_.begin(), order_.end(), 0);
@@ -77,7 +82,14 @@ class OrderSearch {
   /// Goes to the path and prints it.
   void step(State& s, const Item& it, int direction) const {
     const auto d = std::size_t(direction);
-    const double hop_s = distance(s.at_mm, it.start[d]) / weights_.travel_mm_s + weights_.hop_s;
+    double hop_s = distance(s.at_mm, it.start[d]) / weights_.travel_mm_s;
+    if (s.row >= 0 && it.row >= 0) {
+      const ExposureRun::Detour& detour = run_.detours[std::size_t(s.row)][std::size_t(it.row)];
+      hop_s *= detour.factor;
+      s.seconds += detour.extra_s;
+    }
+    hop_s += weights_.hop_s;
+    s.row = it.row;
     if (it.start_visibility > 0) s.hole_mm3 += model_.volume_mm3 * (1 - model_.left(hop_s)) * it.start_visibility;
     const double hop_left = model_.left(hop_s);
     for (std::size_t k = 0; k < count_; ++k) {

@@ -41,6 +41,14 @@ struct ExposureRun {
   std::vector<HangingNozzle> hanging;  // at most 8 are looked at
   Vec2 from_mm;                        // where the nozzle is, without walls
   bool external_first = false;
+
+  /// Between islands: how much longer a way is than the straight one, and what it costs beside its length, in seconds;
+  /// [row of the island left][of the one entered]. Empty: straight. island_row: of each path.
+  struct Detour {
+    double factor = 1, extra_s = 0;
+  };
+  std::vector<std::vector<Detour>> detours;
+  std::vector<int> island_row;
   std::uint32_t seed = 0;
   int steps_a_path = 30;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <span>
 
 #include "plan/exposure_order.hpp"
@@ -192,11 +193,34 @@ class Reorder {
                     .seed = seed_};
     for (const HangingNozzle& n : states_)
       if (n.extruder != extruder) run.hanging.push_back({n.extruder, n.offset_mm - own, n.state});
+    find_detours(turn, run);
     const ExposureOrder best = exposure_order(run, cost_.map(), model_, weights_);
     permute(turn, best.order);
     for (std::size_t k = 0; k < best.order.size(); ++k) judge_entries(turn.part + k, run.hanging, best.at_start[k]);
     std::size_t k = 0;
     for (HangingNozzle& n : states_) n.state = n.extruder == extruder ? IdleState{} : best.after[k++].state;
+  }
+
+  /// From the first entry of each island to that of each other one.
+  void find_detours(const Turn& turn, ExposureRun& run) const {
+    constexpr std::size_t most_islands = 24;
+    std::map<int, int> row_of;
+    std::vector<std::uint32_t> nodes;
+    for (std::size_t k = turn.part; k < turn.last; ++k) {
+      const auto [found, added] = row_of.try_emplace(paths_[k].island, int(nodes.size()));
+      if (added) nodes.push_back(roads_.entries[k].front().node);
+      run.island_row.push_back(found->second);
+    }
+    if (nodes.size() < 2 || nodes.size() > most_islands) return;
+    for (const std::uint32_t from : nodes) {
+      std::vector<ExposureRun::Detour>& row = run.detours.emplace_back();
+      const std::vector<WayLength> found = ways(roads_, cost_, paths_[turn.first].extruder, from, nodes);
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const double straight = distance(roads_.nodes_mm[from], roads_.nodes_mm[nodes[i]]);
+        row.push_back({.factor = straight > 0 ? std::max(1., found[i].way_mm / straight) : 1.,
+                       .extra_s = (found[i].cost - found[i].way_mm) / config_.travel_speed_mm_s});
+      }
+    }
   }
 
   void permute(const Turn& turn, const std::vector<int>& order) {

@@ -207,6 +207,22 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
   return visits;
 }
 
+std::vector<WayLength> ways(const Roadmap& map, const TravelCost& cost, int extruder, std::uint32_t from,
+                            std::span<const std::uint32_t> to) {
+  std::vector<Search::Seed> targets;
+  for (const std::uint32_t node : to) targets.push_back({node, 0});
+  Search search(map, cost);
+  const Search::Seed seed{from, 0};
+  search.run(std::span(&seed, 1), targets, nozzle_of(cost, extruder), unreached);
+  std::vector<WayLength> result;
+  for (const std::uint32_t node : to) {
+    const double straight = distance(map.nodes_mm[from], map.nodes_mm[node]);
+    const bool reached = search.cost(node) < unreached;
+    result.push_back(reached ? WayLength{search.cost(node), search.way_mm(node)} : WayLength{straight, straight});
+  }
+  return result;
+}
+
 std::vector<Vec2> way_in(const Roadmap& map, const TravelCost& cost, int extruder, Vec2 from_mm, std::uint32_t node) {
   // The nearest places are tried as the first.
   constexpr std::size_t tried = 24;

@@ -41,6 +41,13 @@ struct TourOptions {
 std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const TravelCost& cost,
                         const TourOptions& options = {});
 
+/// The cheapest way from one node to each of others, for the nozzle of an extruder.
+struct WayLength {
+  double cost = 0, way_mm = 0;
+};
+std::vector<WayLength> ways(const Roadmap& map, const TravelCost& cost, int extruder, std::uint32_t from,
+                            std::span<const std::uint32_t> to);
+
 /// The places to pass from anywhere to the entry of the first path, both ends left out.
 std::vector<Vec2> way_in(const Roadmap& map, const TravelCost& cost, int extruder, Vec2 from_mm, std::uint32_t node);
 
