@@ -28,19 +28,21 @@ COMPARED = [
     ("cura", "plain", "Cura"),
     ("cura", "shield", "Cura, ooze shield"),
     ("cura", "shield+tower", "Cura, shield + prime tower"),
-    ("ours", "off", "cleancolor, nothing against ooze"),
+    ("ours", "none", "cleancolor, --protect none"),
+    ("ours", "rampart", "cleancolor, --protect rampart"),
     ("ours", "default", "**cleancolor**"),
 ]
 # Our own variants: what each adds to the command line.
 OURS = {
-    "off": ["--azimuth", "off", "--rampart", "off"],
-    "vertical": ["--rampart", "vertical", "--set", "rampart_walls=double"],
-    "conforming": ["--rampart", "conforming", "--set", "rampart_walls=double"],
+    "none": ["--protect", "none"],
+    "rampart": ["--protect", "rampart"],
     "default": [],
-    "layer_start": ["--set", "rampart_order=layer_start", "--set", "rampart_walls=double"],
+    "vertical": ["--protect", "rampart", "--rampart", "vertical", "--set", "rampart_walls=double"],
+    "conforming": ["--protect", "rampart", "--rampart", "conforming", "--set", "rampart_walls=double"],
+    "layer_start": ["--protect", "rampart", "--set", "rampart_order=layer_start", "--set", "rampart_walls=double"],
 }
-RAMPARTS = [("off", "off"), ("vertical", "vertical, two walls (the paper's)"), ("conforming", "conforming, two walls"),
-            ("layer_start", "conforming, both walls at layer start"), ("default", "**conforming, split (the default)**")]
+RAMPARTS = [("none", "off"), ("vertical", "vertical, two walls (the paper's)"), ("conforming", "conforming, two walls"),
+            ("layer_start", "conforming, both walls at layer start"), ("rampart", "**conforming, split (the default)**")]
 # Everything that ../shared/peers can make: --every-variant reads it all.
 VARIANTS = {
     "prusa": ["plain", "tower", "tower140", "shield", "ooze", "tower+shield", "acp", "tower+acp", "fwoffset",
@@ -140,12 +142,12 @@ def plots(results, folder):
     from matplotlib.patches import Patch
 
     titles = [title.strip("*") for _, _, title in COMPARED]
-    palette = ["#56B4E9", "#0072B2", "#00528A", "#8CC7E8", "#E69F00", "#D55E00", "#A04000", "#A5D6C5", "#009E73"]
+    palette = ["#56B4E9", "#0072B2", "#00528A", "#8CC7E8", "#E69F00", "#D55E00", "#A04000", "#D9D9D9", "#A5D6C5", "#009E73"]
     plot, axes = pyplot.subplots(2, 1, figsize=(9, 6), sharex=True, constrained_layout=True)
     for axis, (key, label, _) in zip(axes, FIGURES):
         for k, title in enumerate(titles):
-            places = [m + (k - len(titles) / 2 + 0.5) * 0.1 for m in range(len(results))]
-            bars = axis.bar(places, [figure(rows[k][1], key) for rows in results.values()], 0.1, color=palette[k])
+            places = [m + (k - len(titles) / 2 + 0.5) * 0.09 for m in range(len(results))]
+            bars = axis.bar(places, [figure(rows[k][1], key) for rows in results.values()], 0.09, color=palette[k])
             for bar, (name, rows) in zip(bars, results.items()):
                 if not compares(name, rows, k):
                     bar.set(hatch="//////", edgecolor="white", linewidth=0)

@@ -100,6 +100,11 @@ void add_printing(CLI::App& app, SliceTexts& texts) {
   app.add_option("--load", settings.load, "configuration of PrusaSlicer or Slic3r: an .ini, or G-code that ends in one")
       ->type_name("FILE")
       ->group(group);
+  app.add_option("--protect", texts.protect,
+                 "what keeps the colours apart: nothing, azimuth and rampart, or these and the planner of travel (the "
+                 "default); --azimuth and --rampart beside it count more")
+      ->type_name("none|rampart|full")
+      ->group(group);
   app.add_option("--rampart", texts.rampart,
                  "walls that wipe and fill nozzles: following the part, straight up, or none; short for --set rampart")
       ->type_name("conforming|vertical|off")
@@ -191,6 +196,14 @@ std::optional<double> azimuth_of(const std::string& text) {
   return degrees;
 }
 
+/// Whether parts are turned and walled in.
+bool require_protection(const std::string& protect) {
+  if (protect == "none") return false;
+  if (!protect.empty() && protect != "rampart" && protect != "full")
+    throw Error(fmt::format("--protect: '{}' is none of none, rampart, full", protect));
+  return true;
+}
+
 Overlap overlap_of(const std::string& text) {
   if (text == "refuse") return Overlap::refuse;
   if (text == "first") return Overlap::first;
@@ -241,7 +254,12 @@ SliceCommand slice_command(const CLI::App& app, SliceTexts texts) {
   command.files = files_in_order(app, texts);
   if (command.files.empty())
     throw Error(fmt::format("{0}: name at least one mesh file; see cleancolor {0} --help", app.get_name()));
-  command.azimuth_deg = azimuth_of(texts.azimuth);
+  const bool protects = require_protection(texts.protect);
+  command.azimuth_deg = azimuth_of(texts.azimuth.value_or(protects ? "auto" : "off"));
+  // What is set by name counts more.
+  std::vector<std::string>& set = command.settings.set;
+  if (!protects) set.insert(set.begin(), "rampart=off");
+  if (!texts.protect.empty() && texts.protect != "full") set.insert(set.begin(), "planner=plain");
   if (!texts.rampart.empty()) command.settings.set.push_back("rampart=" + texts.rampart);
   for (const std::string& text : texts.colours) {
     const auto [rgb, extruder] = colour_mapping(text);

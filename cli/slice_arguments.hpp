@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct SliceTexts {
   std::vector<std::string> extruders;
   std::vector<std::string> colours;
   std::string center;
-  std::string azimuth = "auto";
+  std::optional<std::string> azimuth;
   std::string rampart;
+  std::string protect;
   std::string overlap = "refuse";
   bool keep = false;
   CLI::Option* file_option = nullptr;

@@ -190,6 +190,8 @@ class Reorder {
                     .hanging = {},
                     .from_mm = begun_[turn.first].start(),
                     .external_first = config_.external_perimeters_first,
+                    .detours = {},
+                    .island_row = {},
                     .seed = seed_};
     for (const HangingNozzle& n : states_)
       if (n.extruder != extruder) run.hanging.push_back({n.extruder, n.offset_mm - own, n.state});
@@ -281,7 +283,7 @@ void PlannedLayer::plan_run(std::size_t first, std::size_t last, std::vector<int
   run.roads = roadmap(paths, run.cost, {.fixed_seams = config_->seam_position != SeamPosition::hidden});
   const auto walls = wall_cost(paths, run.cost, scene.site.part);
   Reorder reorder(paths, run.roads, run.cost, *config_, std::uint32_t(layer_.index));
-  std::vector<Visit> visits = tour(run.roads, paths, run.cost, {.entry_cost = walls});
+  std::vector<Visit> visits = tour(run.roads, paths, run.cost, {.from_mm = {}, .entry_cost = walls});
   const double plain_cost = reorder.predicted_cost(visits);
   const std::vector<Path> plain(paths.begin(), paths.end());
   const std::vector<std::vector<Entry>> plain_entries = run.roads.entries;
@@ -289,7 +291,7 @@ void PlannedLayer::plan_run(std::size_t first, std::size_t last, std::vector<int
   const auto entry_cost = [&](std::size_t path, std::uint32_t entry) {
     return walls(path, entry) + reorder.entry_cost(path, entry);
   };
-  std::vector<Visit> better = tour(run.roads, paths, run.cost, {.entry_cost = entry_cost});
+  std::vector<Visit> better = tour(run.roads, paths, run.cost, {.from_mm = {}, .entry_cost = entry_cost});
   if (reorder.predicted_cost(better) <= plain_cost) {
     visits = std::move(better);
   } else {

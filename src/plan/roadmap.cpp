@@ -241,6 +241,10 @@ Roadmap roadmap(std::span<const Path> paths, const TravelCost& cost, const Roadm
     for (const Vec2 p : path.points) box.add(p - offset);
   }
   if (box.empty()) return map;
+  // Around all that lies there, for whichever nozzle is in use.
+  if (!cost.map().box_mm().empty())
+    for (const auto& n : cost.nozzles())
+      for (const Vec2 p : {cost.map().box_mm().min, cost.map().box_mm().max}) box.add(p - n.offset_mm);
   const Vec2 margin{options.margin_mm, options.margin_mm};
   add_pathways(cost, {box.min - margin, box.max + margin}, options, nodes);
   for (const Path& path : paths)

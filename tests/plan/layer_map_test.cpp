@@ -1,0 +1,61 @@
+#include "plan/layer_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "drawn_layer.hpp"
+
+namespace cleancolor {
+namespace {
+
+using namespace test;
+
+//   0 mm        10 mm       20 mm
+//   +-----------+-----------+
+//   |  colour 0 | colour 1  |   10 mm deep; the layer above ends at x = 15
+//   +-----------+-----------+
+DrawnLayer two_halves() {
+  DrawnLayer layer({rectangle({0, 0}, {10, 10}), rectangle({10, 0}, {20, 10})});
+  layer.above = rectangle({0, 0}, {15, 10});
+  return layer;
+}
+
+TEST(LayerMap, KnowsWhosePlasticLiesWhere) {
+  const LayerMap map = two_halves().map();
+  EXPECT_EQ(map.at({5, 5}).extruder, 0);
+  EXPECT_EQ(map.at({12, 5}).extruder, 1);
+  for (const Vec2 p : {Vec2{-0.2, 5}, Vec2{5, 10.2}, Vec2{500, 5}, Vec2{5, -500}})
+    EXPECT_EQ(map.at(p).extruder, LayerMap::air) << p.x << ", " << p.y;
+}
+
+TEST(LayerMap, ShowsOuterWallsAndOpenTopsAndNothingElse) {
+  const LayerMap map = two_halves().map();
+  EXPECT_GT(map.at({0.2, 5}).visibility, 200) << "a wall";
+  EXPECT_GT(map.at({12, 0.2}).visibility, 200);
+  EXPECT_EQ(map.at({1, 5}).visibility, 0) << "behind the wall";
+  EXPECT_EQ(map.at({9.9, 5}).visibility, 0) << "where both colours touch";
+  EXPECT_EQ(map.at({10.1, 5}).visibility, 0);
+  EXPECT_EQ(map.at({13, 5}).visibility, 0) << "below the next layer";
+  const DrawnLayer open = two_halves();
+  const std::vector<Polygons> layers{open.outline, open.above};
+  const SurfaceVisibility sky(layers, std::vector<double>{5., 5.});
+  const LayerMap step({open.regions, open.outline, open.above, 5, 0.4}, {}, sky);
+  EXPECT_GT(step.at({18, 5}).visibility, 100) << "no layer above";
+}
+
+TEST(LayerMap, KnowsTheWallsOfTheRampart) {
+  const std::vector<Path> walls{drawn_path(0, {{-2, -2}, {22, -2}}, false, fill_depth, -1, Role::rampart),
+                                drawn_path(1, {{22, -2}, {22, 12}}, false, fill_depth, -1, Role::rampart)};
+  const LayerMap map = two_halves().map(walls);
+  EXPECT_EQ(map.at({7.3, -2.05}).wall, 1);
+  EXPECT_EQ(map.at({22.05, 7.7}).wall, 2);
+  EXPECT_EQ(map.at({7.3, -1.5}).wall, 0);
+  EXPECT_EQ(map.at({5, 5}).wall, 0);
+}
+
+TEST(LayerMap, OfNothingIsAir) {
+  const DrawnLayer nothing({{}, {}});
+  EXPECT_EQ(nothing.map().at({0, 0}).extruder, LayerMap::air);
+}
+
+}  // namespace
+}  // namespace cleancolor

@@ -1,0 +1,225 @@
+// Roadmap and tour: on drawn layers, against exhaustive search over the same roadmap and against a fine grid.
+
+#include "plan/tour.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <queue>
+
+#include "drawn_layer.hpp"
+
+namespace cleancolor {
+namespace {
+
+using namespace test;
+
+TravelCost cost_of(const LayerMap& map, Vec2 second, const TravelWeights& weights = {}) {
+  return TravelCost(map, {{0, {0, 0}, {}}, {1, second, {}}}, weights);
+}
+
+std::vector<double> all_costs_from(const Roadmap& map, std::uint32_t from) {
+  std::vector<double> cost(map.nodes_mm.size(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  cost[from] = 0;
+  queue.emplace(0, from);
+  while (!queue.empty()) {
+    const auto [c, node] = queue.top();
+    queue.pop();
+    if (c > cost[node]) continue;
+    for (const Arc& arc : map.arcs_of(node))
+      if (c + double(arc.cost) < cost[arc.to]) queue.emplace(cost[arc.to] = c + double(arc.cost), arc.to);
+  }
+  return cost;
+}
+
+TEST(Roadmap, HangsTogetherAndEntersEveryPath) {
+  std::mt19937 random(1);
+  for (int t = 0; t < 10; ++t) {
+    SCOPED_TRACE(t);
+    std::vector<Path> paths;
+    const DrawnLayer layer = random_drawn_layer(random, 8, 40, paths);
+    paths.push_back(drawn_path(1, {{3, 3}, {9, 4}}, false));
+    const LayerMap map = layer.map();
+    const Roadmap roads = roadmap(paths, cost_of(map, {15, 0}));
+    for (const double c : all_costs_from(roads, 0)) EXPECT_LT(c, 1e9);
+    ASSERT_EQ(roads.entries.size(), paths.size());
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      if (!paths[k].closed) {
+        ASSERT_EQ(roads.entries[k].size(), 2U);
+        EXPECT_EQ(roads.entries[k][0].at_mm, paths[k].points.front());
+        EXPECT_EQ(roads.entries[k][1].at_mm, paths[k].points.back());
+        continue;
+      }
+      EXPECT_NEAR(double(roads.entries[k].size()), length_mm(paths[k]) / 1.5, 1.01);
+      for (const Entry& e : roads.entries[k]) {
+        const Path begun_there = begun(paths[k], roads, k, std::uint32_t(&e - roads.entries[k].data()));
+        EXPECT_NEAR(length_mm(begun_there), length_mm(paths[k]), 1e-9);
+        EXPECT_EQ(begun_there.start(), e.at_mm);
+        const Vec2 node = roads.nodes_mm[e.node] + (paths[k].extruder == 1 ? Vec2{15, 0} : Vec2{});
+        EXPECT_LT(distance(node, e.at_mm), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Roadmap, EntersWhereAPathCanBeSeenLeast) {
+  // Colour 1 covers all but one side of colour 0.
+  const DrawnLayer layer(
+      {rectangle({0, 0}, {10, 10}), difference(rectangle({-3, 0}, {13, 13}), rectangle({0, 0}, {10, 10}))});
+  const std::vector<Path> paths{drawn_path(0, to_mm(rectangle({0.2, 0.2}, {9.8, 9.8}).front()), true, 0)};
+  const LayerMap map = layer.map();
+  const TravelCost cost = cost_of(map, {100, 0});
+  const std::vector<Visit> visits = tour(roadmap(paths, cost), paths, cost);
+  EXPECT_EQ(cost.visibility(roadmap(paths, cost).entries[0][visits[0].entry].at_mm), 0);
+}
+
+/// The cheapest tour over all entries by trying every pair of neighbours.
+double exhaustive_cost(const Roadmap& roads, const std::vector<Path>& paths, const TravelCost& cost) {
+  std::vector<double> so_far;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    std::vector<double> here(roads.entries[k].size(), k == 0 ? 0 : std::numeric_limits<double>::infinity());
+    if (k > 0)
+      for (std::size_t i = 0; i < so_far.size(); ++i) {
+        const std::size_t exit = paths[k - 1].closed ? i : 1 - i;
+        const std::vector<double> way = all_costs_from(roads, roads.entries[k - 1][exit].node);
+        for (std::size_t e = 0; e < here.size(); ++e)
+          here[e] = std::min(here[e], so_far[i] + way[roads.entries[k][e].node]);
+      }
+    for (std::size_t e = 0; e < here.size(); ++e)
+      here[e] += cost.seam(roads.entries[k][e].at_mm) + cost.seam(roads.entries[k][paths[k].closed ? e : 1 - e].at_mm);
+    so_far = here;
+  }
+  return *std::ranges::min_element(so_far);
+}
+
+TEST(Tour, IsNoDearerThanTheBestOfAll) {
+  std::mt19937 random(2);
+  for (int t = 0; t < 12; ++t) {
+    SCOPED_TRACE(t);
+    std::vector<Path> paths;
+    const DrawnLayer layer = random_drawn_layer(random, 5, 30, paths);
+    paths.push_back(drawn_path(0, {{3, 3}, {9, 4}}, false));
+    paths.push_back(drawn_path(1, {{20, 3}, {12, 24}}, false));
+    const LayerMap map = layer.map();
+    // What depends on the way so far is no matter for an exhaustive search.
+    const TravelCost cost = cost_of(map, {12, 3}, {.smear = 0, .hole = 0});
+    const Roadmap roads = roadmap(paths, cost);
+    const std::vector<Visit> visits = tour(roads, paths, cost, {.from_mm = {}, .slack_mm = 1e9, .entry_cost = {}});
+    double sum = 0;
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      const std::uint32_t exit = paths[k].closed ? visits[k].entry : 1 - visits[k].entry;
+      sum += visits[k].travel_cost + cost.seam(roads.entries[k][visits[k].entry].at_mm) +
+             cost.seam(roads.entries[k][exit].at_mm);
+      // The way begins where the path before ends and costs what it says.
+      if (k == 0) continue;
+      const std::uint32_t left = paths[k - 1].closed ? visits[k - 1].entry : 1 - visits[k - 1].entry;
+      std::vector<Vec2> way{roads.nodes_mm[roads.entries[k - 1][left].node]};
+      way.insert(way.end(), visits[k].travel_mm.begin(), visits[k].travel_mm.end());
+      way.push_back(roads.nodes_mm[roads.entries[k][visits[k].entry].node]);
+      double again = 0;
+      for (std::size_t i = 0; i + 1 < way.size(); ++i) again += cost.way(way[i], way[i + 1]);
+      EXPECT_NEAR(again, visits[k].travel_cost, 1e-6);
+    }
+    const double least = exhaustive_cost(roads, paths, cost);
+    EXPECT_LE(sum, least * (1 + 1e-6) + 1e-3);
+  }
+}
+
+/// Whether a grid of 0.25 mm has a way from a to b, no longer than `longest_mm`, on which no nozzle is over visible
+/// plastic of another colour.
+bool grid_finds_a_way(const TravelCost& cost, Vec2 a, Vec2 b, double longest_mm) {
+  constexpr double cell = 0.25;
+  const Vec2 low = Vec2{std::min(a.x, b.x), std::min(a.y, b.y)} - Vec2{45, 45};
+  const int columns = int((std::abs(a.x - b.x) + 90) / cell), rows = int((std::abs(a.y - b.y) + 90) / cell);
+  const auto place = [&](int i) { return low + Vec2{i % columns + 0.5, i / columns + 0.5} * cell; };
+  const auto index = [&](Vec2 p) { return int((p.y - low.y) / cell) * columns + int((p.x - low.x) / cell); };
+  std::vector<double> way(std::size_t(columns) * std::size_t(rows), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  queue.emplace(way[std::size_t(index(a))] = 0, index(a));
+  while (!queue.empty()) {
+    const auto [w, i] = queue.top();
+    queue.pop();
+    if (w > longest_mm) return false;
+    if (i == index(b)) return true;
+    if (w > way[std::size_t(i)]) continue;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int x = i % columns + dx, y = i / columns + dy;
+        if (x < 0 || y < 0 || x >= columns || y >= rows) continue;
+        const int j = y * columns + x;
+        const double next = w + cell * std::hypot(dx, dy);
+        if (next >= way[std::size_t(j)] || cost.straight(place(i), place(j)).foreign > 0) continue;
+        queue.emplace(way[std::size_t(j)] = next, j);
+      }
+  }
+  return false;
+}
+
+TEST(Tour, CrossesForeignPlasticOnlyWhereAFineGridFindsNoWay) {
+  std::mt19937 random(3);
+  int around = 0, through = 0;
+  for (int t = 0; t < 25; ++t) {
+    std::vector<Path> paths;
+    const DrawnLayer layer = random_drawn_layer(random, 7, 30, paths);
+    if (paths.size() < 2) continue;
+    const LayerMap map = layer.map();
+    const TravelCost cost = cost_of(map, {11, 2});
+    const Roadmap roads = roadmap(paths, cost);
+    const std::vector<Visit> visits = tour(roads, paths, cost);
+    const Vec2 extent = bounds_mm(layer.outline).size();
+    for (std::size_t k = 1; k < paths.size(); ++k) {
+      std::vector<Vec2> way{roads.nodes_mm[roads.entries[k - 1][visits[k - 1].entry].node]};
+      way.insert(way.end(), visits[k].travel_mm.begin(), visits[k].travel_mm.end());
+      way.push_back(roads.nodes_mm[roads.entries[k][visits[k].entry].node]);
+      double foreign = 0;
+      for (std::size_t i = 0; i + 1 < way.size(); ++i)
+        foreign = std::max(foreign, cost.straight(way[i], way[i + 1]).foreign);
+      const bool straight_is_bad = cost.straight(way.front(), way.back()).foreign > 0.05;
+      around += foreign <= 0.05 && straight_is_bad;
+      if (foreign <= 0.05) continue;
+      ++through;
+      EXPECT_FALSE(grid_finds_a_way(cost, way.front(), way.back(), 4 * std::max(extent.x, extent.y)))
+          << "layer " << t << ", path " << k;
+    }
+  }
+  EXPECT_GT(around, 10);
+  RecordProperty("around", around);
+  RecordProperty("through", through);
+}
+
+TEST(Tour, StaysWhereTheNozzleReaches) {
+  // The shortest way around the other colour leaves the bed.
+  const DrawnLayer layer(
+      {united(rectangle({0, 0}, {5, 5}), rectangle({25, 0}, {30, 5})), rectangle({10, -1}, {20, 30})});
+  const std::vector<Path> paths{drawn_path(0, {{1, 1}, {4, 1}}, false), drawn_path(0, {{26, 1}, {29, 1}}, false)};
+  const LayerMap map = layer.map();
+  for (const bool limited : {false, true}) {
+    const Polygons reach = limited ? rectangle({-5, -1.5}, {40, 50}) : Polygons{};
+    const TravelCost cost(map, {{0, {0, 0}, reach}}, {});
+    const std::vector<Visit> visits = tour(roadmap(paths, cost), paths, cost);
+    double lowest = 0, highest = 0;
+    for (const Vec2 p : visits[1].travel_mm) lowest = std::min(lowest, p.y), highest = std::max(highest, p.y);
+    EXPECT_EQ(highest > 29, limited);
+    EXPECT_EQ(lowest < -1.5, !limited);
+  }
+}
+
+TEST(WayIn, GoesAroundForeignPlastic) {
+  const DrawnLayer layer({rectangle({20, 0}, {25, 5}), rectangle({8, -6}, {12, 8})});
+  const std::vector<Path> paths{drawn_path(0, {{21, 1}, {24, 1}}, false), drawn_path(1, {{9, -5}, {11, -5}}, false)};
+  const LayerMap map = layer.map();
+  const TravelCost cost(map, {{0, {0, 0}, {}}, {1, {100, 0}, {}}}, {});
+  const Roadmap roads = roadmap(paths, cost);
+  const Vec2 from{1, 1};
+  std::vector<Vec2> way = way_in(roads, cost, 0, from, roads.entries[0][0].node);
+  way.insert(way.begin(), from);
+  way.push_back(paths[0].points.front());
+  EXPECT_GT(cost.straight(way.front(), way.back()).foreign, 0.5);
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) EXPECT_EQ(cost.straight(way[i], way[i + 1]).foreign, 0) << i;
+}
+
+}  // namespace
+}  // namespace cleancolor
