@@ -82,8 +82,8 @@ class TravelCost {
   /// Of beginning or ending a road at a place of the part.
   double seam(Vec2 p_mm) const { return weights_.seam * visibility(p_mm); }
 
-  /// Of beginning an outer wall at a place after a way of so many mm: plastic that oozed out on it is missing there.
-  double hole(Vec2 p_mm, double way_mm) const { return weights_.hole * visibility(p_mm) * way_mm; }
+  /// Of beginning an outer wall of this visibility after a way of so many mm: plastic that oozed out is missing there.
+  double hole(double visible, double way_mm) const { return weights_.hole * visible * way_mm; }
 
   double visibility(Vec2 p_mm) const { return map_.at(p_mm).visibility / 255.; }
 

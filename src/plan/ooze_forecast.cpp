@@ -23,6 +23,31 @@ class RoadOf {
 
 }  // namespace
 
+double visibility_ahead(const Path& path, std::size_t segment, Vec2 at_mm, const LayerMap& map) {
+  constexpr int samples = 4;
+  constexpr double spacing_mm = 0.4;
+  double sum = 0;
+  for (int k = 0; k < samples; ++k) {
+    sum += map.at(at_mm).visibility / 255.;
+    // On by one spacing; at the end of an open path it stays.
+    double rest = spacing_mm;
+    for (std::size_t step = 0; step <= path.points.size(); ++step) {
+      const bool is_end = !path.closed && segment + 1 == path.points.size();
+      if (is_end) break;
+      const Vec2 to = path.points[(segment + 1) % path.points.size()];
+      const double length = distance(at_mm, to);
+      if (length > rest) {
+        at_mm = lerp(at_mm, to, rest / length);
+        break;
+      }
+      rest -= length;
+      at_mm = to;
+      segment = path.closed ? (segment + 1) % path.points.size() : segment + 1;
+    }
+  }
+  return sum / samples;
+}
+
 double seconds_of(const Path& path) {
   RoadOf road(path);
   double sum = 0;

@@ -57,6 +57,10 @@ struct Touches {
   }
 };
 
+/// How plainly the first millimetres of a path from a place on one of its segments can be seen, in the mean: where
+/// plastic is missing after a travel.
+double visibility_ahead(const Path& path, std::size_t segment, Vec2 at_mm, const LayerMap& map);
+
 /// How long a path takes, without accelerations.
 double seconds_of(const Path& path);
 

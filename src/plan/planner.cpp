@@ -166,7 +166,8 @@ class Reorder {
     const double hop_left = model_.left(way_mm / weights_.travel_mm_s + weights_.hop_s);
     double sum = 0;
     if (path.depth == 0)
-      sum += weights_.hole_weight * model_.volume_mm3 * (1 - hop_left) * cost_.visibility(path.start());
+      sum += weights_.hole_weight * model_.volume_mm3 * (1 - hop_left) *
+             visibility_ahead(path, 0, path.start(), cost_.map());
     for (HangingNozzle& n : states_) {
       if (n.extruder == path.extruder) {
         n.state = {};

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "plan/ooze_forecast.hpp"
+
 namespace cleancolor {
 namespace {
 
@@ -39,6 +41,7 @@ void add_entries(const Path& path, Vec2 offset_mm, const TravelCost& cost, const
   const auto close_stretch = [&] {
     if (taken == 0) return;
     best.node = nodes.add(best.at_mm - offset_mm);
+    if (path.depth == 0) best.ahead = visibility_ahead(path, best.segment, best.at_mm, cost.map());
     entries.push_back(best);
     taken = 0;
   };
@@ -48,7 +51,7 @@ void add_entries(const Path& path, Vec2 offset_mm, const TravelCost& cost, const
     for (; next < way + length; next += sample) {
       const Vec2 p = length > 0 ? lerp(a, b, (next - way) / length) : a;
       const double c = cost.seam(p);
-      if (taken == 0 || c < best_cost) best = {0, std::uint32_t(i), p}, best_cost = c;
+      if (taken == 0 || c < best_cost) best = {.node = 0, .segment = std::uint32_t(i), .at_mm = p}, best_cost = c;
       if (++taken == samples_a_stretch) close_stretch();
     }
     way += length;
@@ -230,11 +233,11 @@ Roadmap roadmap(std::span<const Path> paths, const TravelCost& cost, const Roadm
     const Vec2 offset = offset_mm[std::size_t(path.extruder)];
     std::vector<Entry>& entries = map.entries.emplace_back();
     if (!path.closed) {
-      entries.push_back({nodes.add(path.points.front() - offset), 0, path.points.front()});
-      entries.push_back(
-          {nodes.add(path.points.back() - offset), std::uint32_t(path.segments() - 1), path.points.back()});
+      const auto last = std::uint32_t(path.segments() - 1);
+      entries.push_back({nodes.add(path.points.front() - offset), 0, path.points.front(), 0});
+      entries.push_back({nodes.add(path.points.back() - offset), last, path.points.back(), 0});
     } else if (options.fixed_seams || path.road().role == Role::rampart) {
-      entries.push_back({nodes.add(path.start() - offset), 0, path.start()});
+      entries.push_back({nodes.add(path.start() - offset), 0, path.start(), 0});
     } else {
       add_entries(path, offset, cost, options, nodes, entries);
     }

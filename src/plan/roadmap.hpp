@@ -26,6 +26,7 @@ struct Entry {
   std::uint32_t node = 0;
   std::uint32_t segment = 0;  // of the path; of an open path its first or last
   Vec2 at_mm;                 // on it, where the plastic lies
+  double ahead = 0;           // visibility of the first road of an outer wall
 };
 
 struct Arc {

@@ -171,7 +171,7 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
       double c = options.from_mm ? cost.way(*options.from_mm, map.nodes_mm[entries[i].node]) : 0;
       if (k > 0) {
         c = search.cost(entries[i].node);
-        if (paths[k].depth == 0) c += cost.hole(entries[i].at_mm, search.way_mm(entries[i].node));
+        if (paths[k].depth == 0) c += cost.hole(entries[i].ahead, search.way_mm(entries[i].node));
       }
       c += targets[i].cost;
       entered[k].push_back(c);
