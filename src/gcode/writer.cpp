@@ -108,13 +108,16 @@ void GcodeWriter::Print::path(const Layer& layer, const Path& path) {
   machine.lower();
   machine.unretract();
 
+  const bool refills = path.road().role == Role::refill;
   Machine::Feed feed{};
   std::size_t next = 0;
   for (std::size_t i = 0; i + 1 < polyline.points.size(); ++i) {
     if (next < polyline.stretches.size() && polyline.stretches[next].first_segment <= i)
       feed = begin_road(layer, e, polyline.stretches[next++].road);
+    if (refills && i == 0) text.line(";REFILL_START");
     machine.extrude(polyline.points[i + 1], feed);
   }
+  if (refills) text.line(";REFILL_END");
   progress_mark();
 }
 

@@ -25,6 +25,7 @@ enum class RampartShape { automatic, conforming, vertical, off };
 enum class RampartWalls { doubled, split };
 enum class RampartOrder { before_run, layer_start };
 enum class Planner { clean, plain };
+enum class RefillMode { model, off };
 
 /// A length in mm, or a share of another length: "0.45" or "105%".
 struct LengthOrShare {
@@ -183,6 +184,7 @@ struct Config {
 
   // print: planner
   Planner planner = Planner::clean;
+  RefillMode refill_mode = RefillMode::off;
 
   // print: output
   double resolution_mm = 0.02;          // contours are simplified by this much before any offset

@@ -172,6 +172,7 @@ constexpr Option table[] = {
   {"rampart_brim_width", print, "Rampart", &C::rampart_brim_width_mm, "mm", 0, 100, "of the walls in the first layer, so that they stand; 0: none"},
 
   {"planner", print, "Planner", &C::planner, "", 0, 0, "clean: ways that keep nozzles off other colours and starts that cannot be seen; plain: the nearest path next, straight"},
+  {"refill_mode", print, "Planner", &C::refill_mode, "", 0, 0, "model: plastic forecast to be missing in a nozzle is pushed beside a wall of the rampart before an outer wall would lack it; off: not"},
 
   {"resolution", print, "Output", &C::resolution_mm, "mm", 0, 1, "outlines are simplified by this much before anything else"},
   {"gcode_resolution", print, "Output", &C::gcode_resolution_mm, "mm", 0, 1, "print paths are simplified by this much"},

@@ -26,6 +26,7 @@ constexpr std::string_view rampart_shapes[] = {"auto", "conforming", "vertical",
 constexpr std::string_view rampart_walls[] = {"double", "split"};
 constexpr std::string_view rampart_orders[] = {"before_run", "layer_start"};
 constexpr std::string_view planners[] = {"clean", "plain"};
+constexpr std::string_view refill_modes[] = {"model", "off"};
 
 std::span<const std::string_view> names_of(Flavour) {
   return flavours;
@@ -56,6 +57,9 @@ std::span<const std::string_view> names_of(RampartOrder) {
 }
 std::span<const std::string_view> names_of(Planner) {
   return planners;
+}
+std::span<const std::string_view> names_of(RefillMode) {
+  return refill_modes;
 }
 
 // The type of the value that a field holds.

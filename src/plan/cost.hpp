@@ -29,7 +29,7 @@ struct TravelWeights {
   double hidden = 0.5;
   double seam = 300;  // x visibility
   double smear = 20;  // for each mm of way before foreign plastic is touched, x its visibility
-  double hole = 100;   // for each mm of way before an outer wall, x visibility of its start
+  double hole = 100;  // for each mm of way before an outer wall, x visibility of its start
 };
 
 /// Of one mm, beside the 1 of the way itself, for one nozzle.

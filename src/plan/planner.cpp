@@ -7,6 +7,7 @@
 #include <span>
 
 #include "plan/exposure_order.hpp"
+#include "plan/refill.hpp"
 #include "plan/tour.hpp"
 #include "shield/start.hpp"
 
@@ -16,7 +17,6 @@ namespace cleancolor {
 struct PlannedLayer::Run {
   TravelCost cost;
   Roadmap roads;
-  std::uint32_t first_node = 0;
 };
 
 namespace {
@@ -57,7 +57,8 @@ PlannedLayer::PlannedLayer(Layer layer, OrderState& state, const Config& config,
     if (path.road().role == Role::rampart) walls.push_back(path);
   map_ = std::make_unique<LayerMap>(scene.part, walls, visibility);
   // Nozzles that leave the print while they idle are planned for one after the other.
-  const std::vector<Path>& paths = layer_.paths;
+  const std::vector<Path> paths = std::move(layer_.paths);
+  layer_.paths.clear();
   for (std::size_t first = 0, last = 0; first < paths.size(); first = last) {
     std::vector<int> nozzles = scene.hanging;
     if (nozzles.empty()) {
@@ -66,7 +67,8 @@ PlannedLayer::PlannedLayer(Layer layer, OrderState& state, const Config& config,
     } else {
       last = paths.size();
     }
-    plan_run(first, last, std::move(nozzles), scene);
+    const auto at = [&](std::size_t k) { return paths.begin() + std::ptrdiff_t(k); };
+    std::ranges::move(planned({at(first), at(last)}, nozzles, scene), std::back_inserter(layer_.paths));
   }
 }
 
@@ -273,20 +275,20 @@ class Reorder {
 
 }  // namespace
 
-void PlannedLayer::plan_run(std::size_t first, std::size_t last, std::vector<int> nozzles, const PlanScene& scene) {
+std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vector<int>& nozzles,
+                                        const PlanScene& scene) {
   std::vector<TravelCost::Nozzle> hanging;
   for (const int e : nozzles) {
     Polygons reach = e < int(scene.reach.size()) ? scene.reach[std::size_t(e)] : Polygons{};
     hanging.push_back({e, config_->extruders[std::size_t(e)].nozzle_offset_mm, std::move(reach)});
   }
-  const std::span<Path> paths = std::span(layer_.paths).subspan(first, last - first);
   Run run{.cost = TravelCost(*map_, std::move(hanging), {}), .roads = {}};
   run.roads = roadmap(paths, run.cost, {.fixed_seams = config_->seam_position != SeamPosition::hidden});
   const auto walls = wall_cost(paths, run.cost, scene.site.part);
   Reorder reorder(paths, run.roads, run.cost, *config_, std::uint32_t(layer_.index));
   std::vector<Visit> visits = tour(run.roads, paths, run.cost, {.from_mm = {}, .entry_cost = walls});
   const double plain_cost = reorder.predicted_cost(visits);
-  const std::vector<Path> plain(paths.begin(), paths.end());
+  const std::vector<Path> plain = paths;
   const std::vector<std::vector<Entry>> plain_entries = run.roads.entries;
   reorder.run(visits);
   const auto entry_cost = [&](std::size_t path, std::uint32_t entry) {
@@ -299,7 +301,6 @@ void PlannedLayer::plan_run(std::size_t first, std::size_t last, std::vector<int
     std::ranges::copy(plain, paths.begin());
     run.roads.entries = plain_entries;
   }
-  run.first_node = run.roads.entries[0][visits[0].entry].node;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     paths[k] = begun(std::move(paths[k]), run.roads, k, visits[k].entry);
     // The carriage is where nozzle 0 is; the path's own nozzle is beside it.
@@ -307,7 +308,14 @@ void PlannedLayer::plan_run(std::size_t first, std::size_t last, std::vector<int
     for (const Vec2 c : visits[k].travel_mm)
       paths[k].travel.push_back(c + config_->extruders[std::size_t(paths[k].extruder)].nozzle_offset_mm);
   }
-  if (first == 0) first_ = std::make_unique<Run>(std::move(run));
+  if (config_->refill_mode != RefillMode::off && layer_.index > 0) {
+    const OrderWeights weights;
+    const double mm_of_mm3 = config_->travel_speed_mm_s / weights.s_mm3;
+    paths = with_refills(std::move(paths), run.roads, run.cost, {},
+                         {.hole_mm = weights.hole_weight * mm_of_mm3, .travel_mm_s = config_->travel_speed_mm_s});
+  }
+  if (!first_) first_ = std::make_unique<Run>(std::move(run));
+  return paths;
 }
 
 void PlannedLayer::arrive_from(const Layer& below) {
@@ -315,7 +323,8 @@ void PlannedLayer::arrive_from(const Layer& below) {
   const auto offset = [&](const Path& path) { return config_->extruders[std::size_t(path.extruder)].nozzle_offset_mm; };
   Path& path = layer_.paths.front();
   const Vec2 from = below.paths.back().end() - offset(below.paths.back());
-  path.travel = way_in(first_->roads, first_->cost, path.extruder, from, first_->first_node);
+  const Vec2 to = path.start() - offset(path);
+  path.travel = way_between(first_->roads, first_->cost, path.extruder, from, to).between_mm;
   for (Vec2& p : path.travel) p = p + offset(path);
 }
 

@@ -49,7 +49,7 @@ class PlannedLayer {
 
  private:
   struct Run;
-  void plan_run(std::size_t first, std::size_t last, std::vector<int> nozzles, const PlanScene& scene);
+  std::vector<Path> planned(std::vector<Path> paths, const std::vector<int>& nozzles, const PlanScene& scene);
 
   Layer layer_;
   const Config* config_;

@@ -223,27 +223,46 @@ std::vector<WayLength> ways(const Roadmap& map, const TravelCost& cost, int extr
   return result;
 }
 
-std::vector<Vec2> way_in(const Roadmap& map, const TravelCost& cost, int extruder, Vec2 from_mm, std::uint32_t node) {
-  // The nearest places are tried as the first.
-  constexpr std::size_t tried = 24;
+PlannedWay way_between(const Roadmap& map, const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm) {
   const int nozzle = nozzle_of(cost, extruder);
-  std::vector<std::pair<double, std::uint32_t>> near;
-  for (std::uint32_t i = 0; i < map.nodes_mm.size(); ++i)
-    if (map.reached_by[i] >> nozzle & 1) near.emplace_back(length_squared(map.nodes_mm[i] - from_mm), i);
-  std::ranges::partial_sort(near, near.begin() + std::ptrdiff_t(std::min(tried, near.size())));
-  std::vector<Search::Seed> seeds{{node, cost.way(from_mm, map.nodes_mm[node])}};
-  for (std::size_t i = 0; i < std::min(tried, near.size()); ++i)
-    seeds.push_back({near[i].second, cost.way(from_mm, map.nodes_mm[near[i].second])});
-  Search search(map, cost);
-  const Search::Seed target{node, 0};
-  search.run(seeds, std::span(&target, 1), nozzle, 0);
-  std::vector<Vec2> way{map.nodes_mm[node]};
-  for (std::uint32_t n = node; search.before()[n] != nobody; n = search.before()[n])
-    way.push_back(map.nodes_mm[search.before()[n]]);
+  // The nearest places are tried as the first and the last.
+  const auto nearest = [&](Vec2 p) {
+    std::vector<std::pair<double, std::uint32_t>> all;
+    for (std::uint32_t i = 0; i < map.nodes_mm.size(); ++i)
+      if (map.reached_by[i] >> nozzle & 1) all.emplace_back(length_squared(map.nodes_mm[i] - p), i);
+    constexpr std::size_t tried = 24;
+    const std::size_t count = std::min(tried, all.size());
+    std::ranges::partial_sort(all, all.begin() + std::ptrdiff_t(count));
+    std::vector<Search::Seed> seeds;
+    for (std::size_t i = 0; i < count; ++i) seeds.push_back({all[i].second, cost.way(p, map.nodes_mm[all[i].second])});
+    return seeds;
+  };
+  const std::vector<Search::Seed> seeds = nearest(from_mm), targets = nearest(to_mm);
+  PlannedWay best{.between_mm = {}, .cost = cost.way(from_mm, to_mm)};
+  if (!seeds.empty()) {
+    Search search(map, cost);
+    search.run(seeds, targets, nozzle, 0);
+    std::uint32_t last = nobody;
+    for (const Search::Seed& t : targets) {
+      if (search.cost(t.node) + t.cost >= best.cost) continue;
+      best.cost = search.cost(t.node) + t.cost;
+      last = t.node;
+    }
+    for (; last != nobody; last = search.before()[last]) best.between_mm.push_back(map.nodes_mm[last]);
+  }
+  std::vector<Vec2>& way = best.between_mm;
   way.push_back(from_mm);
   std::ranges::reverse(way);
+  way.push_back(to_mm);
   pull(way, cost);
-  return {way.begin() + 1, way.end() - 1};
+  best.cost = 0;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    best.cost += cost.way(way[i], way[i + 1]);
+    best.way_mm += distance(way[i], way[i + 1]);
+  }
+  way.erase(way.begin());
+  way.pop_back();
+  return best;
 }
 
 Path begun(Path path, const Roadmap& map, std::size_t index, std::uint32_t entry) {

@@ -48,8 +48,12 @@ struct WayLength {
 std::vector<WayLength> ways(const Roadmap& map, const TravelCost& cost, int extruder, std::uint32_t from,
                             std::span<const std::uint32_t> to);
 
-/// The places to pass from anywhere to the entry of the first path, both ends left out.
-std::vector<Vec2> way_in(const Roadmap& map, const TravelCost& cost, int extruder, Vec2 from_mm, std::uint32_t node);
+/// A way between any two places of the carriage, for the nozzle of an extruder.
+struct PlannedWay {
+  std::vector<Vec2> between_mm;  // places passed, both ends left out
+  double cost = 0, way_mm = 0;
+};
+PlannedWay way_between(const Roadmap& map, const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm);
 
 /// The path begun at the entry.
 Path begun(Path path, const Roadmap& map, std::size_t index, std::uint32_t entry);

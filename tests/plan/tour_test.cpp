@@ -207,15 +207,16 @@ TEST(Tour, StaysWhereTheNozzleReaches) {
   }
 }
 
-TEST(WayIn, GoesAroundForeignPlastic) {
+TEST(WayBetween, GoesAroundForeignPlastic) {
   const DrawnLayer layer({rectangle({20, 0}, {25, 5}), rectangle({8, -6}, {12, 8})});
   const std::vector<Path> paths{drawn_path(0, {{21, 1}, {24, 1}}, false), drawn_path(1, {{9, -5}, {11, -5}}, false)};
   const LayerMap map = layer.map();
   const TravelCost cost(map, {{0, {0, 0}, {}}, {1, {100, 0}, {}}}, {});
   const Roadmap roads = roadmap(paths, cost);
   const Vec2 from{1, 1};
-  std::vector<Vec2> way = way_in(roads, cost, 0, from, roads.entries[0][0].node);
-  way.insert(way.begin(), from);
+  const PlannedWay planned = way_between(roads, cost, 0, from, paths[0].points.front());
+  std::vector<Vec2> way{from};
+  way.insert(way.end(), planned.between_mm.begin(), planned.between_mm.end());
   way.push_back(paths[0].points.front());
   EXPECT_GT(cost.straight(way.front(), way.back()).foreign, 0.5);
   for (std::size_t i = 0; i + 1 < way.size(); ++i) EXPECT_EQ(cost.straight(way[i], way[i + 1]).foreign, 0) << i;
