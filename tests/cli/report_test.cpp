@@ -17,8 +17,11 @@ SliceRequest request_of_three() {
   return request;
 }
 
-const Summary summary = {
-    .layers = 100, .tool_changes = 94, .time_s = 3725, .extruders = {{1234.5, 3.7, 0}, {20, 0.06, 0}, {0, 0, 0}}};
+const Summary summary = {.layers = 100,
+                         .tool_changes = 94,
+                         .time_s = 3725,
+                         .extruders = {{1234.5, 3.7, 0}, {20, 0.06, 0}, {0, 0, 0}},
+                         .protection = {}};
 
 TEST(SummaryTable, ShowsEveryExtruderThatWasUsed) {
   EXPECT_EQ(summary_table(summary, request_of_three()),
