@@ -230,6 +230,7 @@ Roadmap roadmap(std::span<const Path> paths, const TravelCost& cost, const Roadm
   }
   Box<Vec2> box;
   for (const Path& path : paths) {
+    assert(std::size_t(path.extruder) < offset_mm.size());
     const Vec2 offset = offset_mm[std::size_t(path.extruder)];
     std::vector<Entry>& entries = map.entries.emplace_back();
     if (!path.closed) {

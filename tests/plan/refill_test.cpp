@@ -25,7 +25,7 @@ struct Post {
 
   std::vector<Path> refilled() const {
     const LayerMap map = drawn.map(std::span(paths).first(1));
-    const TravelCost cost(map, {{0, {0, 0}, {}}}, {});
+    const TravelCost cost(map, {{0, {0, 0}, {}}, {1, {300, 0}, {}}}, {});
     return with_refills(paths, roadmap(paths, cost), cost, model, options);
   }
 };
