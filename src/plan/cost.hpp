@@ -83,7 +83,9 @@ class TravelCost {
   double seam(Vec2 p_mm) const { return weights_.seam * visibility(p_mm); }
 
   /// Of beginning an outer wall of this visibility after a way of so many mm: plastic that oozed out is missing there.
-  double hole(double visible, double way_mm) const { return weights_.hole * visible * way_mm; }
+  double hole(double visible, double way_mm) const {
+    return weights_.hole * visible * (way_mm + (way_mm > short_hop_mm ? stop_mm : 0));
+  }
 
   double visibility(Vec2 p_mm) const { return map_.at(p_mm).visibility / 255.; }
 
@@ -97,6 +99,7 @@ class TravelCost {
 
  private:
   static constexpr double step_mm = 0.2;
+  static constexpr double short_hop_mm = 1, stop_mm = 18;  // a travel that is no short one loses the time of so many mm
   const LayerMap& map_;
   std::vector<Nozzle> nozzles_;
   TravelWeights weights_;

@@ -82,13 +82,13 @@ class OrderSearch {
   /// Goes to the path and prints it.
   void step(State& s, const Item& it, int direction) const {
     const auto d = std::size_t(direction);
-    double hop_s = distance(s.at_mm, it.start[d]) / weights_.travel_mm_s;
+    double way_mm = distance(s.at_mm, it.start[d]);
     if (s.row >= 0 && it.row >= 0) {
       const ExposureRun::Detour& detour = run_.detours[std::size_t(s.row)][std::size_t(it.row)];
-      hop_s *= detour.factor;
+      way_mm *= detour.factor;
       s.seconds += detour.extra_s;
     }
-    hop_s += weights_.hop_s;
+    const double hop_s = weights_.hop.seconds(way_mm);
     s.row = it.row;
     if (it.start_visibility > 0) s.hole_mm3 += model_.volume_mm3 * (1 - model_.left(hop_s)) * it.start_visibility;
     const double hop_left = model_.left(hop_s);

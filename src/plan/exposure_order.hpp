@@ -22,8 +22,7 @@ namespace cleancolor {
 struct OrderWeights {
   double hole_weight = 4;  // mm3 of smear that a missing mm3 is worth
   double s_mm3 = 0.005;    // that a second is worth
-  double travel_mm_s = 150;
-  double hop_s = 0.05;  // of each travel, for its accelerations
+  HopTime hop;
 };
 
 /// One idle nozzle at the beginning of the run.

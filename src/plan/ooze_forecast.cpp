@@ -23,6 +23,20 @@ class RoadOf {
 
 }  // namespace
 
+HopTime hop_time(const Config& config, int extruder) {
+  const Extruder& e = config.extruders[std::size_t(extruder)];
+  const double back_mm_s = e.retract_speed_mm_s;
+  const double forth_mm_s = e.deretract_speed_mm_s > 0 ? e.deretract_speed_mm_s : back_mm_s;
+  const Vec3 axes = config.machine_max_acceleration_mm_s2;
+  double acceleration = std::min(axes.x, axes.y);
+  if (config.machine_max_acceleration_travel_mm_s2 > 0)
+    acceleration = std::min(acceleration, config.machine_max_acceleration_travel_mm_s2);
+  return {.speed_mm_s = config.travel_speed_mm_s,
+          .acceleration_mm_s2 = std::max(acceleration, 1.),
+          .retract_before_mm = e.retract_before_travel_mm,
+          .retract_s = e.retract_length_mm / back_mm_s + e.retract_length_mm / forth_mm_s};
+}
+
 double visibility_ahead(const Path& path, std::size_t segment, Vec2 at_mm, const LayerMap& map) {
   constexpr int samples = 4;
   constexpr double spacing_mm = 0.4;

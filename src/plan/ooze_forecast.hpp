@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "model/config.hpp"
 #include "plan/cost.hpp"
 #include "toolpath/path.hpp"
 
@@ -26,6 +27,24 @@ struct OozeModel {
 
   double left(double seconds) const { return std::exp(-seconds / time_s); }  // share that is still to come
 };
+
+/// How long a travel takes, from standstill to standstill, with drawing back and pushing forward where it is long.
+struct HopTime {
+  double speed_mm_s = 150;
+  double acceleration_mm_s2 = 1500;
+  double retract_before_mm = 1;
+  double retract_s = 0.04;  // both ways
+
+  double seconds(double way_mm) const {
+    const double full_mm = speed_mm_s * speed_mm_s / acceleration_mm_s2;  // from here on it reaches its speed
+    const double moving = way_mm < full_mm ? 2 * std::sqrt(way_mm / acceleration_mm_s2)
+                                           : way_mm / speed_mm_s + speed_mm_s / acceleration_mm_s2;
+    return moving + (way_mm > retract_before_mm ? retract_s : 0);
+  }
+};
+
+/// Of an extruder, by its speeds and lengths.
+HopTime hop_time(const Config& config, int extruder);
 
 /// One idle nozzle.
 struct IdleState {

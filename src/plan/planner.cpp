@@ -100,7 +100,7 @@ class Reorder {
  public:
   Reorder(std::span<Path> paths, Roadmap& roads, const TravelCost& cost, const Config& config, std::uint32_t seed)
       : paths_(paths), roads_(roads), cost_(cost), config_(config), seed_(seed), entry_cost_(paths.size()) {
-    weights_.travel_mm_s = config.travel_speed_mm_s;
+    weights_.hop = hop_time(config, paths.front().extruder);
     mm_of_mm3_ = config.travel_speed_mm_s / weights_.s_mm3;
   }
 
@@ -165,7 +165,7 @@ class Reorder {
   double print(std::size_t k, double way_mm, std::uint64_t walls) {
     const Path& path = begun_[k];
     const Vec2 own = offset_mm(path.extruder);
-    const double hop_left = model_.left(way_mm / weights_.travel_mm_s + weights_.hop_s);
+    const double hop_left = model_.left(weights_.hop.seconds(way_mm));
     double sum = 0;
     if (path.depth == 0)
       sum += weights_.hole_weight * model_.volume_mm3 * (1 - hop_left) *
@@ -311,8 +311,9 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
   if (config_->refill_mode != RefillMode::off && layer_.index > 0) {
     const OrderWeights weights;
     const double mm_of_mm3 = config_->travel_speed_mm_s / weights.s_mm3;
-    paths = with_refills(std::move(paths), run.roads, run.cost, {},
-                         {.hole_mm = weights.hole_weight * mm_of_mm3, .travel_mm_s = config_->travel_speed_mm_s});
+    paths =
+        with_refills(std::move(paths), run.roads, run.cost, {},
+                     {.hole_mm = weights.hole_weight * mm_of_mm3, .hop = hop_time(*config_, paths.front().extruder)});
   }
   if (!first_) first_ = std::make_unique<Run>(std::move(run));
   return paths;

@@ -90,7 +90,7 @@ class Refills {
 
  private:
   double missing_mm3(double way_mm) const {
-    return model_.volume_mm3 * (1 - model_.left(way_mm / options_.travel_mm_s + options_.hop_s));
+    return model_.volume_mm3 * (1 - model_.left(options_.hop.seconds(way_mm)));
   }
   Vec2 offset_of(int extruder) const {
     for (const auto& n : cost_.nozzles())

@@ -22,9 +22,8 @@
 namespace cleancolor {
 
 struct RefillOptions {
-  double hole_mm = 0;      // of way that a missing mm3 in plain sight is worth
-  double travel_mm_s = 0;  // > 0
-  double hop_s = 0.05;     // of each travel, for its accelerations
+  double hole_mm = 0;  // of way that a missing mm3 in plain sight is worth
+  HopTime hop;
 };
 
 /// paths: begun, with Path::travel in the frame of their own nozzle; walls among them come before what they fill for.

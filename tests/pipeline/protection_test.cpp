@@ -244,6 +244,10 @@ class ProtectionOfModel : public testing::TestWithParam<const char*> {};
 
 TEST_P(ProtectionOfModel, KeepsIdleNozzlesOffAndStaysOnTheBed) {
   if (!shared_models_are_there()) GTEST_SKIP() << "needs the models of " << CLEANCOLOR_SHARED;
+#ifdef __SANITIZE_ADDRESS__
+  for (const char* large : {"dragon-heart", "spot-cow", "two-color-world-50mm"})
+    if (std::string(large) == GetParam()) GTEST_SKIP() << "takes a minute under sanitizers; the smaller models do not";
+#endif
   const auto& all = models();
   const Model& model =
       *std::find_if(all.begin(), all.end(), [&](const Model& m) { return std::string(m.name) == GetParam(); });
