@@ -7,7 +7,7 @@
 //
 // The paper pushes 2 mm3 on every way through the corridor; here what is forecast to be missing, where that is worth
 // the way to the wall. Walls printed just before each colour's run fill nozzles already, and from the wall to the part
-// a little is lost again: on the models of the benchmarks holes change by -14 to +6 %, so it is off by default.
+// a little is lost again, so it brings little and is off by default.
 //
 // Source: Hergel and Lefebvre, Clean color, section 6.5.
 #pragma once
