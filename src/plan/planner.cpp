@@ -21,7 +21,8 @@ struct PlannedLayer::Run {
 
 namespace {
 
-constexpr double exposure_weight = 50;  // mm of way that a mm of an unwiped nozzle over the part is worth
+constexpr double exposure_weight =
+    1e5;  // mm of way for each mm of an unwiped nozzle over the part: only where both ends expose it
 
 /// Open walls are walked from the end from which idle nozzles are wiped first.
 std::function<double(std::size_t, std::uint32_t)> wall_cost(std::span<const Path> paths, const TravelCost& cost,
