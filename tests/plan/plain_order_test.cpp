@@ -6,18 +6,13 @@
 #include <random>
 #include <tuple>
 
+#include "drawn_layer.hpp"
+
 namespace cleancolor {
 namespace {
 
 Path path_of(int extruder, int island, int depth, std::vector<Vec2> points, bool closed) {
-  Path path;
-  path.extruder = extruder;
-  path.island = island;
-  path.depth = depth;
-  path.closed = closed;
-  path.points = std::move(points);
-  path.stretches = {{0, {}}};
-  return path;
+  return test::drawn_path(extruder, std::move(points), closed, depth, island);
 }
 
 Path loop_at(Vec2 c, double r, int extruder, int island, int depth) {

@@ -8,9 +8,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "model/check.hpp"
-#include "model/placement.hpp"
-#include "model/read.hpp"
+#include "paper_outlines.hpp"
 #include "shield/rampart.hpp"
 #include "slice/slices.hpp"
 
@@ -220,27 +218,12 @@ void PrintTo(const PaperModel& model, std::ostream* out) {
 
 class RampartOfModel : public testing::TestWithParam<PaperModel> {};
 
-std::vector<Polygons> outlines_of(const PaperModel& model, double layer_mm) {
-  const auto folder = std::filesystem::path(CLEANCOLOR_SHARED) / "models" / "paper";
-  std::vector<Part> parts;
-  for (const char* colour : {model.first, model.second})
-    for (Part& part : read_model(folder / (std::string(model.name) + "_" + colour + ".stl"))) {
-      part.mesh = checked(std::move(part.mesh), part.name);
-      part.extruder = int(parts.size());
-      parts.push_back(std::move(part));
-    }
-  Config config;
-  config.extruders.resize(2);
-  place(parts, config, {});
-  const SliceOptions options{.extruders = 2, .first_layer_height_mm = layer_mm, .layer_height_mm = layer_mm};
-  return slices(parts, options).outlines;
-}
-
 TEST_P(RampartOfModel, IsSound) {
   if (!std::filesystem::exists(std::filesystem::path(CLEANCOLOR_SHARED) / "models"))
     GTEST_SKIP() << "needs the models of " << CLEANCOLOR_SHARED;
   for (const double layer_mm : {0.3, 0.6}) {
-    const std::vector<Polygons> outlines = outlines_of(GetParam(), layer_mm);
+    const std::vector<Polygons> outlines =
+        paper_outlines(GetParam().name, GetParam().first, GetParam().second, layer_mm);
     for (const int walls : {2, 3}) {
       RampartOptions options{.walls = walls};
       const Rampart conforming = rampart_of(outlines, options, layer_mm);

@@ -10,9 +10,7 @@
 #include <limits>
 #include <numbers>
 
-#include "model/check.hpp"
-#include "model/placement.hpp"
-#include "model/read.hpp"
+#include "paper_outlines.hpp"
 #include "shield/rampart.hpp"
 #include "shield/walls.hpp"
 #include "slice/slices.hpp"
@@ -137,17 +135,7 @@ TEST(WallStart, FindsAStartThatWipesWhereTheOracleFindsOne) {
   for (const auto& [name, first, second] :
        {std::tuple{"two-color-world-50mm", "ocean", "land"}, std::tuple{"crystal", "white", "black"},
         std::tuple{"dragon-heart", "body", "accent"}, std::tuple{"robot-ice", "robot", "crust"}}) {
-    std::vector<Part> parts;
-    for (const char* colour : {first, second})
-      for (Part& part : read_model(folder / (std::string(name) + "_" + colour + ".stl"))) {
-        part.mesh = checked(std::move(part.mesh), part.name);
-        part.extruder = int(parts.size());
-        parts.push_back(std::move(part));
-      }
-    Config config;
-    config.extruders.resize(2);
-    place(parts, config, {});
-    const std::vector<Polygons> outlines = slices(parts, {.extruders = 2}).outlines;
+    const std::vector<Polygons> outlines = paper_outlines(name, first, second, 0.3);
     const Rampart r = rampart(outlines, std::vector<double>(outlines.size(), 0.3), {});
     for (std::size_t k = 3; k < outlines.size(); k += 35)
       for (const Vec2 idle : {Vec2{33, 0}, Vec2{-33, 0}, Vec2{12, 20}}) {
