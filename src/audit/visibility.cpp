@@ -69,9 +69,7 @@ double PrintedVisibility::at(Vec3 p_mm) const {
 }
 
 double PrintedVisibility::at(Vec3 p_mm, Vec2 a_mm, Vec2 b_mm) const {
-  const Vec2 ab = b_mm - a_mm, p{p_mm.x, p_mm.y};
-  const double l2 = length_squared(ab);
-  const Vec2 q = a_mm + ab * (l2 > 0 ? std::clamp(dot(p - a_mm, ab) / l2, 0., 1.) : 0);
+  const Vec2 q = nearest_on_segment(a_mm, b_mm, {p_mm.x, p_mm.y});
   return at({q.x, q.y, p_mm.z});
 }
 

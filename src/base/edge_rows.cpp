@@ -10,10 +10,7 @@ namespace {
 constexpr double shortest_mm = 1e-6;
 
 double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const double squared = length_squared(d);
-  const double t = squared > 0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0;
-  return distance(p, a + d * t);
+  return distance(p, nearest_on_segment(a, b, p));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // Vec2, Vec3: points and displacements in mm, as doubles. Polygons have integer points of their own: base/polygon.hpp.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace cleancolor {
@@ -35,6 +36,11 @@ inline double distance(Vec2 a, Vec2 b) {
 }
 constexpr Vec2 lerp(Vec2 a, Vec2 b, double t) {
   return a + (b - a) * t;
+}
+/// The place of the segment from a to b that is nearest to p.
+constexpr Vec2 nearest_on_segment(Vec2 a, Vec2 b, Vec2 p) {
+  const double squared = length_squared(b - a);
+  return lerp(a, b, squared > 0 ? std::clamp(dot(p - a, b - a) / squared, 0., 1.) : 0);
 }
 /// Turned about the origin, counterclockwise.
 inline Vec2 turned(Vec2 v, double radians) {

@@ -24,8 +24,10 @@ enum class BrimType { no_brim, outer_only };
 enum class RampartShape { automatic, conforming, vertical, off };
 enum class RampartWalls { doubled, split };
 enum class RampartOrder { before_run, layer_start };
-enum class Planner { clean, plain };
-enum class RefillMode { model, off };
+enum class Planner { clean, paper, plain };
+enum class Effort { fast, normal, best };
+enum class PrintOrder { exposure, few_changes, paper };
+enum class RefillMode { fixed, model, off };
 
 /// A length in mm, or a share of another length: "0.45" or "105%".
 struct LengthOrShare {
@@ -118,6 +120,7 @@ struct Config {
   bool interface_shells = false;
   double solid_infill_below_area_mm2 = 70;
   SeamPosition seam_position = SeamPosition::hidden;
+  bool join_perimeters = true;
   LengthOrShare seam_gap_distance = {0.15, true};  // of the nozzle diameter
   double slice_closing_radius_mm = 0.049;
   double xy_size_compensation_mm = 0;
@@ -184,7 +187,23 @@ struct Config {
 
   // print: planner
   Planner planner = Planner::clean;
+  Effort effort = Effort::normal;
+  PrintOrder print_order = PrintOrder::exposure;
   RefillMode refill_mode = RefillMode::off;
+  double refill_volume_mm3 = 2;   // of each pass, where refill_mode is fixed
+  double refill_speed_mm_s = 2;   // of the filament
+  int refill_skipped_layers = 3;  // the first ones
+  // In mm of way, beside the 1 of each mm itself: a mm over ...
+  double weight_crossing = 1000;  // visible foreign plastic
+  double weight_foreign = 100;    // foreign plastic in full sight, in addition
+  double weight_own = 30;         // own plastic in full sight
+  double weight_hidden = 0.5;     // plastic that cannot be seen
+  double weight_seam = 300;       // a start or end in full sight
+  double weight_smear = 20;       // foreign plastic in full sight, for each mm since the last touch
+  double weight_hole = 100;       // an outer wall in full sight, for each mm of way to it
+  // In mm3 of smear:
+  double weight_hole_volume = 4;  // a mm3 missing in an outer wall
+  double weight_time = 0.005;     // a second
 
   // print: output
   double resolution_mm = 0.02;          // contours are simplified by this much before any offset

@@ -25,8 +25,10 @@ constexpr std::string_view brim_types[] = {"no_brim", "outer_only"};
 constexpr std::string_view rampart_shapes[] = {"auto", "conforming", "vertical", "off"};
 constexpr std::string_view rampart_walls[] = {"double", "split"};
 constexpr std::string_view rampart_orders[] = {"before_run", "layer_start"};
-constexpr std::string_view planners[] = {"clean", "plain"};
-constexpr std::string_view refill_modes[] = {"model", "off"};
+constexpr std::string_view planners[] = {"clean", "paper", "plain"};
+constexpr std::string_view efforts[] = {"fast", "normal", "best"};
+constexpr std::string_view print_orders[] = {"exposure", "few_changes", "paper"};
+constexpr std::string_view refill_modes[] = {"fixed", "model", "off"};
 
 std::span<const std::string_view> names_of(Flavour) {
   return flavours;
@@ -57,6 +59,12 @@ std::span<const std::string_view> names_of(RampartOrder) {
 }
 std::span<const std::string_view> names_of(Planner) {
   return planners;
+}
+std::span<const std::string_view> names_of(Effort) {
+  return efforts;
+}
+std::span<const std::string_view> names_of(PrintOrder) {
+  return print_orders;
 }
 std::span<const std::string_view> names_of(RefillMode) {
   return refill_modes;

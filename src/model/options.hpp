@@ -37,9 +37,9 @@ using OptionField =
     std::variant<bool Config::*, int Config::*, double Config::*, std::string Config::*, LengthOrShare Config::*,
                  std::vector<Vec2> Config::*, Flavour Config::*, OffsetsIn Config::*, IdleNozzle Config::*,
                  SeamPosition Config::*, FillPattern Config::*, BrimType Config::*, RampartShape Config::*,
-                 RampartWalls Config::*, RampartOrder Config::*, Planner Config::*, RefillMode Config::*, MachineAxis,
-                 bool Extruder::*, int Extruder::*, double Extruder::*, std::string Extruder::*, Vec2 Extruder::*,
-                 std::vector<Vec2> Extruder::*>;
+                 RampartWalls Config::*, RampartOrder Config::*, Planner Config::*, Effort Config::*,
+                 PrintOrder Config::*, RefillMode Config::*, MachineAxis, bool Extruder::*, int Extruder::*,
+                 double Extruder::*, std::string Extruder::*, Vec2 Extruder::*, std::vector<Vec2> Extruder::*>;
 
 struct Option {
   std::string_view name;

@@ -69,7 +69,7 @@ class OrderSearch {
     Item it{.start = {path.start(), path.end()}, .end = {path.end(), path.start()}, .touches = {}};
     it.open = !path.closed;
     it.seconds = seconds_of(path);
-    if (path.depth == 0) it.start_visibility = visibility_ahead(path, 0, path.start(), map);
+    if (begins_outer_wall(path)) it.start_visibility = visibility_ahead(path, 0, path.start(), map);
     for (std::size_t k = 0; k < count_; ++k) {
       const HangingNozzle& n = run_.hanging[k];
       const TouchTrack track(path, n.offset_mm, n.extruder, map, walls);

@@ -62,15 +62,31 @@ double visibility_ahead(const Path& path, std::size_t segment, Vec2 at_mm, const
   return sum / samples;
 }
 
+Touches then(const Touches& a, const Touches& b) {
+  Touches t = a.any ? a : b;
+  t.left_end = a.left_end * b.left_end;
+  if (!b.any) return t;
+  t.left_last = a.left_end * b.left_last;
+  if (!a.any) {
+    t.left_first = a.left_end * b.left_first;
+    t.later = a.left_end * b.later;
+  } else {
+    t.later += b.first_visibility * (a.left_last - a.left_end * b.left_first) + a.left_end * b.later;
+  }
+  return t;
+}
+
 double seconds_of(const Path& path) {
   RoadOf road(path);
   double sum = 0;
+  for (const Path& inner : path.inner) sum += seconds_of(inner);
   for (std::size_t i = 0; i < path.segments(); ++i)
     sum += distance(path.points[i], path.points[(i + 1) % path.points.size()]) / road(i).speed_mm_s;
   return sum;
 }
 
 TouchTrack::TouchTrack(const Path& path, Vec2 offset_mm, int idle, const LayerMap& map, std::uint64_t walls) {
+  for (const Path& inner : path.inner) inner_.emplace_back(inner, offset_mm, idle, map, walls);
   RoadOf road(path);
   for (std::size_t i = 0; i < path.segments(); ++i) {
     const Vec2 a = path.points[i] + offset_mm, b = path.points[(i + 1) % path.points.size()] + offset_mm;
@@ -106,6 +122,8 @@ Touches TouchTrack::forwards(const OozeModel& model, double from_s) const {
   for (auto it = first; it != touches_.end(); ++it) add(t, model.left(it->at_s - from_s), it->visibility);
   for (auto it = touches_.begin(); it != first; ++it) add(t, model.left(it->at_s + all_s_ - from_s), it->visibility);
   t.left_end = model.left(all_s_);
+  // Inner loops are begun at about the same share of their way.
+  for (const TouchTrack& inner : inner_) t = then(inner.forwards(model, inner.all_s_ * (from_s / all_s_)), t);
   return t;
 }
 

@@ -76,11 +76,19 @@ struct Touches {
   }
 };
 
+/// One after the other.
+Touches then(const Touches& a, const Touches& b);
+
 /// How plainly the first millimetres of a path from a place on one of its segments can be seen, in the mean: where
 /// plastic is missing after a travel.
 double visibility_ahead(const Path& path, std::size_t segment, Vec2 at_mm, const LayerMap& map);
 
-/// How long a path takes, without accelerations.
+/// Whether plastic that is missing after a travel is missing in an outer wall.
+inline bool begins_outer_wall(const Path& path) {
+  return path.depth == 0 && path.inner.empty();
+}
+
+/// How long a path takes with its inner loops, without accelerations.
 double seconds_of(const Path& path);
 
 /// What an idle nozzle touches beside a path, in time.
@@ -108,6 +116,7 @@ class TouchTrack {
   std::vector<Touch> touches_;
   std::vector<double> begin_s_, s_mm_;  // of each segment
   double all_s_ = 0;
+  std::vector<TouchTrack> inner_;  // of Path::inner
 };
 
 }  // namespace cleancolor

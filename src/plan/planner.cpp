@@ -7,6 +7,7 @@
 #include <span>
 
 #include "plan/exposure_order.hpp"
+#include "plan/joined_loops.hpp"
 #include "plan/refill.hpp"
 #include "plan/tour.hpp"
 #include "shield/start.hpp"
@@ -21,8 +22,26 @@ struct PlannedLayer::Run {
 
 namespace {
 
-constexpr double exposure_weight =
-    1e5;  // mm of way for each mm of an unwiped nozzle over the part: only where both ends expose it
+// Mm of way for each mm of an unwiped nozzle over the part: only where both ends expose it.
+constexpr double exposure_weight = 1e5;
+
+TravelWeights travel_weights(const Config& c) {
+  return {.crossing = c.weight_crossing,
+          .foreign = c.weight_foreign,
+          .own = c.weight_own,
+          .hidden = c.weight_hidden,
+          .seam = c.weight_seam,
+          .smear = c.weight_smear,
+          .hole = c.weight_hole};
+}
+
+OrderWeights order_weights(const Config& c, int extruder) {
+  return {.hole_weight = c.weight_hole_volume, .s_mm3 = c.weight_time, .hop = hop_time(c, extruder)};
+}
+
+int steps_a_path(Effort effort) {
+  return effort == Effort::fast ? 8 : effort == Effort::normal ? 30 : 200;
+}
 
 /// Open walls are walked from the end from which idle nozzles are wiped first.
 std::function<double(std::size_t, std::uint32_t)> wall_cost(std::span<const Path> paths, const TravelCost& cost,
@@ -100,8 +119,13 @@ std::vector<Turn> turns_of(std::span<const Path> paths) {
 class Reorder {
  public:
   Reorder(std::span<Path> paths, Roadmap& roads, const TravelCost& cost, const Config& config, std::uint32_t seed)
-      : paths_(paths), roads_(roads), cost_(cost), config_(config), seed_(seed), entry_cost_(paths.size()) {
-    weights_.hop = hop_time(config, paths.front().extruder);
+      : paths_(paths),
+        roads_(roads),
+        cost_(cost),
+        config_(config),
+        seed_(seed),
+        weights_(order_weights(config, paths.front().extruder)),
+        entry_cost_(paths.size()) {
     mm_of_mm3_ = config.travel_speed_mm_s / weights_.s_mm3;
   }
 
@@ -168,7 +192,7 @@ class Reorder {
     const Vec2 own = offset_mm(path.extruder);
     const double hop_left = model_.left(weights_.hop.seconds(way_mm));
     double sum = 0;
-    if (path.depth == 0)
+    if (begins_outer_wall(path))
       sum += weights_.hole_weight * model_.volume_mm3 * (1 - hop_left) *
              visibility_ahead(path, 0, path.start(), cost_.map());
     for (HangingNozzle& n : states_) {
@@ -196,7 +220,8 @@ class Reorder {
                     .external_first = config_.external_perimeters_first,
                     .detours = {},
                     .island_row = {},
-                    .seed = seed_};
+                    .seed = seed_,
+                    .steps_a_path = steps_a_path(config_.effort)};
     for (const HangingNozzle& n : states_)
       if (n.extruder != extruder) run.hanging.push_back({n.extruder, n.offset_mm - own, n.state});
     find_detours(turn, run);
@@ -283,8 +308,11 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
     Polygons reach = e < int(scene.reach.size()) ? scene.reach[std::size_t(e)] : Polygons{};
     hanging.push_back({e, config_->extruders[std::size_t(e)].nozzle_offset_mm, std::move(reach)});
   }
-  Run run{.cost = TravelCost(*map_, std::move(hanging), {}), .roads = {}};
-  run.roads = roadmap(paths, run.cost, {.fixed_seams = config_->seam_position != SeamPosition::hidden});
+  const bool hidden_seams = config_->seam_position == SeamPosition::hidden;
+  const bool joins = config_->join_perimeters && !config_->external_perimeters_first;
+  if (joins) paths = with_inner_loops(std::move(paths), hidden_seams);
+  Run run{.cost = TravelCost(*map_, std::move(hanging), travel_weights(*config_)), .roads = {}};
+  run.roads = roadmap(paths, run.cost, {.fixed_seams = !hidden_seams, .leads = joins});
   const auto walls = wall_cost(paths, run.cost, scene.site.part);
   Reorder reorder(paths, run.roads, run.cost, *config_, std::uint32_t(layer_.index));
   std::vector<Visit> visits = tour(run.roads, paths, run.cost, {.from_mm = {}, .entry_cost = walls});
@@ -303,18 +331,18 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
     run.roads.entries = plain_entries;
   }
   for (std::size_t k = 0; k < paths.size(); ++k) {
-    paths[k] = begun(std::move(paths[k]), run.roads, k, visits[k].entry);
+    const Entry& entry = run.roads.entries[k][visits[k].entry];
+    paths[k] = led_inside(joined(begun(std::move(paths[k]), run.roads, k, visits[k].entry)), entry.lead_mm);
     // The carriage is where nozzle 0 is; the path's own nozzle is beside it.
     paths[k].travel.clear();
     for (const Vec2 c : visits[k].travel_mm)
       paths[k].travel.push_back(c + config_->extruders[std::size_t(paths[k].extruder)].nozzle_offset_mm);
   }
   if (config_->refill_mode != RefillMode::off && layer_.index > 0) {
-    const OrderWeights weights;
+    const OrderWeights weights = order_weights(*config_, paths.front().extruder);
     const double mm_of_mm3 = config_->travel_speed_mm_s / weights.s_mm3;
-    paths =
-        with_refills(std::move(paths), run.roads, run.cost, {},
-                     {.hole_mm = weights.hole_weight * mm_of_mm3, .hop = hop_time(*config_, paths.front().extruder)});
+    paths = with_refills(std::move(paths), run.roads, run.cost, {},
+                         {.hole_mm = weights.hole_weight * mm_of_mm3, .hop = weights.hop});
   }
   if (!first_) first_ = std::make_unique<Run>(std::move(run));
   return paths;

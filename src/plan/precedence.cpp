@@ -11,33 +11,37 @@ namespace {
 double distance_to_line(const Path& path, Vec2 p) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < path.segments(); ++i) {
-    const Vec2 a = path.points[i], ab = path.points[(i + 1) % path.points.size()] - a;
-    const double squared = length_squared(ab);
-    const double t = squared > 0 ? std::clamp(dot(p - a, ab) / squared, 0.0, 1.0) : 0;
-    least = std::min(least, length_squared(p - (a + ab * t)));
+    const Vec2 q = nearest_on_segment(path.points[i], path.points[(i + 1) % path.points.size()], p);
+    least = std::min(least, length_squared(p - q));
   }
   return least;
 }
 
+/// A loop, and the path that it belongs to: itself, or the one that it is joined to.
+struct Loop {
+  const Path* path = nullptr;
+  int owner = 0;
+};
+
 }  // namespace
 
 std::vector<int> outer_loops(std::span<const Path> paths) {
-  std::map<int, std::vector<int>> by_depth;
-  for (std::size_t i = 0; i < paths.size(); ++i)
-    if (is_loop(paths[i])) by_depth[paths[i].depth].push_back(int(i));
+  std::map<int, std::vector<Loop>> by_depth;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (!is_loop(paths[i])) continue;
+    by_depth[paths[i].depth].push_back({&paths[i], int(i)});
+    for (const Path& inner : paths[i].inner) by_depth[inner.depth].push_back({&inner, int(i)});
+  }
   std::vector<int> result(paths.size(), -1);
   for (const auto& [depth, loops] : by_depth) {
     const auto outside = by_depth.find(depth - 1);
     if (outside == by_depth.end()) continue;
-    for (const int i : loops) {
-      const auto distance = [&](int k) {
-        return distance_to_line(paths[std::size_t(k)], paths[std::size_t(i)].start());
-      };
-      const std::vector<int>& around = outside->second;
-      result[std::size_t(i)] =
-          around.size() == 1 ? around.front() : *std::min_element(around.begin(), around.end(), [&](int a, int b) {
-            return distance(a) < distance(b);
-          });
+    const std::vector<Loop>& around = outside->second;
+    for (const auto& [path, owner] : loops) {
+      if (path != &paths[std::size_t(owner)]) continue;
+      const auto distance = [start = path->start()](const Loop& loop) { return distance_to_line(*loop.path, start); };
+      result[std::size_t(owner)] =
+          around.size() == 1 ? around.front().owner : std::ranges::min_element(around, {}, distance)->owner;
     }
   }
   return result;

@@ -26,10 +26,7 @@ OnWall nearest(const std::vector<const Path*>& walls, Vec2 p) {
   double least = farthest_mm * farthest_mm;
   for (const Path* wall : walls)
     for (std::size_t i = 0; i < wall->segments(); ++i) {
-      const Vec2 a = wall->points[i], ab = wall->points[(i + 1) % wall->points.size()] - a;
-      const double squared = length_squared(ab);
-      const double t = squared > 0 ? std::clamp(dot(p - a, ab) / squared, 0., 1.) : 0;
-      const Vec2 q = a + ab * t;
+      const Vec2 q = nearest_on_segment(wall->points[i], wall->points[(i + 1) % wall->points.size()], p);
       if (length_squared(q - p) >= least) continue;
       least = length_squared(q - p);
       best = {wall, i, q};
@@ -137,7 +134,7 @@ std::vector<Path> with_refills(std::vector<Path> paths, const Roadmap& roads, co
   std::vector<Path> result;
   std::vector<const Path*> walls;
   for (std::size_t k = 0; k < paths.size(); ++k) {
-    const bool may_lack = k > 0 && paths[k].depth == 0 && paths[k].extruder == paths[k - 1].extruder;
+    const bool may_lack = k > 0 && begins_outer_wall(paths[k]) && paths[k].extruder == paths[k - 1].extruder;
     if (may_lack && !walls.empty())
       if (auto pass = refills.between(paths[k - 1], paths[k], walls)) {
         result.push_back(std::move(pass->refill));

@@ -4,8 +4,10 @@
 #include <boost/polygon/voronoi.hpp>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <numeric>
 
+#include "plan/joined_loops.hpp"
 #include "plan/ooze_forecast.hpp"
 
 namespace cleancolor {
@@ -32,18 +34,28 @@ class Nodes {
 
 /// The places of a closed path where it can be entered.
 void add_entries(const Path& path, Vec2 offset_mm, const TravelCost& cost, const RoadmapOptions& options, Nodes& nodes,
-                 std::vector<Entry>& entries) {
+                 std::span<const Path* const> loops, std::vector<Entry>& entries) {
   const double stretch = options.spacing_mm, sample = stretch / samples_a_stretch;
   double next = 0, way = 0;  // of the next sample; of the segment's begin
   int taken = 0;
   Entry best;
   double best_cost = 0;
   const auto close_stretch = [&] {
-    if (taken == 0) return;
-    best.node = nodes.add(best.at_mm - offset_mm);
-    if (path.depth == 0) best.ahead = visibility_ahead(path, best.segment, best.at_mm, cost.map());
-    entries.push_back(best);
+    const bool any = taken > 0;
     taken = 0;
+    if (!any) return;
+    Vec2 at_mm = best.at_mm;
+    if (!path.inner.empty()) {
+      const auto joint = joint_at(path, at_mm);
+      if (!joint) return;
+      at_mm = joint->at_mm;
+    }
+    best.node = nodes.add(at_mm - offset_mm);
+    if (begins_outer_wall(path)) {
+      best.ahead = visibility_ahead(path, best.segment, best.at_mm, cost.map());
+      best.lead_mm = options.leads ? lead_mm(path, best.segment, best.at_mm, loops) : 0;
+    }
+    entries.push_back(best);
   };
   for (std::size_t i = 0; i < path.segments(); ++i) {
     const Vec2 a = path.points[i], b = path.points[(i + 1) % path.points.size()];
@@ -57,6 +69,12 @@ void add_entries(const Path& path, Vec2 offset_mm, const TravelCost& cost, const
     way += length;
   }
   close_stretch();
+  // Where none of the places looked at has a joint, one of the corners has: the loops would not be together else.
+  for (std::size_t i = 0; i < path.points.size() && entries.empty(); ++i) {
+    best = {.node = 0, .segment = std::uint32_t(i), .at_mm = path.points[i]};
+    taken = 1;
+    close_stretch();
+  }
 }
 
 /// A field of distances to what must not be crossed, in the carriage's frame.
@@ -228,6 +246,12 @@ Roadmap roadmap(std::span<const Path> paths, const TravelCost& cost, const Roadm
     offset_mm.resize(std::max(offset_mm.size(), std::size_t(n.extruder) + 1));
     offset_mm[std::size_t(n.extruder)] = n.offset_mm;
   }
+  std::map<std::pair<int, int>, std::vector<const Path*>> loops;  // of each extruder and island
+  for (const Path& path : paths) {
+    if (!path.closed || path.island < 0) continue;
+    loops[{path.extruder, path.island}].push_back(&path);
+    for (const Path& inner : path.inner) loops[{path.extruder, path.island}].push_back(&inner);
+  }
   Box<Vec2> box;
   for (const Path& path : paths) {
     assert(std::size_t(path.extruder) < offset_mm.size());
@@ -235,12 +259,12 @@ Roadmap roadmap(std::span<const Path> paths, const TravelCost& cost, const Roadm
     std::vector<Entry>& entries = map.entries.emplace_back();
     if (!path.closed) {
       const auto last = std::uint32_t(path.segments() - 1);
-      entries.push_back({nodes.add(path.points.front() - offset), 0, path.points.front(), 0});
-      entries.push_back({nodes.add(path.points.back() - offset), last, path.points.back(), 0});
+      entries.push_back({.node = nodes.add(path.points.front() - offset), .segment = 0, .at_mm = path.points.front()});
+      entries.push_back({.node = nodes.add(path.points.back() - offset), .segment = last, .at_mm = path.points.back()});
     } else if (options.fixed_seams || path.road().role == Role::rampart) {
-      entries.push_back({nodes.add(path.start() - offset), 0, path.start(), 0});
+      entries.push_back({.node = nodes.add(path.start() - offset), .segment = 0, .at_mm = path.start()});
     } else {
-      add_entries(path, offset, cost, options, nodes, entries);
+      add_entries(path, offset, cost, options, nodes, loops[{path.extruder, path.island}], entries);
     }
     for (const Vec2 p : path.points) box.add(p - offset);
   }

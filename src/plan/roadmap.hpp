@@ -27,6 +27,7 @@ struct Entry {
   std::uint32_t segment = 0;  // of the path; of an open path its first or last
   Vec2 at_mm;                 // on it, where the plastic lies
   double ahead = 0;           // visibility of the first road of an outer wall
+  double lead_mm = 0;         // so far inside it can begin and end (plan/joined_loops.hpp)
 };
 
 struct Arc {
@@ -53,6 +54,7 @@ struct RoadmapOptions {
   double pathway_mm = 2;      // between nodes of pathways
   double margin_mm = 6;       // beyond the paths
   bool fixed_seams = false;   // closed paths are entered at their start alone
+  bool leads = true;          // outer walls without inner loop may begin and end inside
 };
 
 /// The roadmap of a layer whose paths are printed in this order. Closed paths of the rampart are entered at their start

@@ -54,9 +54,7 @@ struct OnLoop {
 OnLoop nearest_on(const std::vector<Vec2>& points, Vec2 p) {
   OnLoop best;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec2 a = points[i], d = points[(i + 1) % points.size()] - a;
-    const double squared = length_squared(d);
-    const Vec2 q = a + d * (squared > 0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0);
+    const Vec2 q = nearest_on_segment(points[i], points[(i + 1) % points.size()], p);
     if (const double off = distance(p, q); off < best.distance_mm) best = {i, q, off};
   }
   return best;

@@ -5,10 +5,14 @@
 #include <limits>
 #include <queue>
 
+#include "plan/joined_loops.hpp"
+#include "plan/ooze_forecast.hpp"
+
 namespace cleancolor {
 namespace {
 
 constexpr double unreached = std::numeric_limits<double>::infinity();
+constexpr double joint_of_seam = 0.1;  // how much of a seam shows where an outer wall ends inside
 constexpr std::uint32_t nobody = 0xFFFFFFFF;
 
 /// Where an entry is left again.
@@ -160,6 +164,7 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
     std::vector<Search::Seed> targets;
     for (std::uint32_t i = 0; i < entries.size(); ++i) {
       double extra = cost.seam(entries[i].at_mm) + cost.seam(entries[exit_of(paths[k], i)].at_mm);
+      if (!paths[k].inner.empty() || entries[i].lead_mm > 0) extra *= joint_of_seam;
       if (options.entry_cost) extra += options.entry_cost(k, i);
       targets.push_back({entries[i].node, extra});
     }
@@ -171,7 +176,7 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
       double c = options.from_mm ? cost.way(*options.from_mm, map.nodes_mm[entries[i].node]) : 0;
       if (k > 0) {
         c = search.cost(entries[i].node);
-        if (paths[k].depth == 0) c += cost.hole(entries[i].ahead, search.way_mm(entries[i].node));
+        if (begins_outer_wall(paths[k])) c += cost.hole(entries[i].ahead, search.way_mm(entries[i].node));
       }
       c += targets[i].cost;
       entered[k].push_back(c);
@@ -268,8 +273,8 @@ PlannedWay way_between(const Roadmap& map, const TravelCost& cost, int extruder,
 Path begun(Path path, const Roadmap& map, std::size_t index, std::uint32_t entry) {
   const Entry& e = map.entries[index][entry];
   if (!path.closed) return entry == 1 ? reversed(std::move(path)) : path;
-  return e.at_mm == path.points[e.segment] ? started_at(std::move(path), e.segment)
-                                           : started_on(std::move(path), e.segment, e.at_mm);
+  return inner_aligned(e.at_mm == path.points[e.segment] ? started_at(std::move(path), e.segment)
+                                                         : started_on(std::move(path), e.segment, e.at_mm));
 }
 
 }  // namespace cleancolor

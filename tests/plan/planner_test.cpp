@@ -63,7 +63,8 @@ TEST(PlannedLayer, PrintsEveryPathOnceAndInnerOnesFirst) {
       SCOPED_TRACE(t);
       DrawnLayer drawn({{}, {}});
       const Layer layer = random_layer(random, drawn);
-      const Config config = two_nozzles();
+      Config config = two_nozzles();
+      config.join_perimeters = false;
       OrderState state;
       PlannedLayer planned(layer, state, config, scene_of(drawn, same_height ? std::vector{0, 1} : std::vector<int>{}),
                            drawn.visibility);
@@ -92,7 +93,8 @@ TEST(PlannedLayer, TravelsInTheFrameOfTheNozzleThatPrintsNext) {
   std::mt19937 random(12);
   DrawnLayer drawn({{}, {}});
   const Layer layer = random_layer(random, drawn);
-  const Config config = two_nozzles();
+  Config config = two_nozzles();
+  config.join_perimeters = false;
   OrderState state;
   PlannedLayer planned(layer, state, config, scene_of(drawn, {0, 1}), drawn.visibility);
   Layer below = layer;
