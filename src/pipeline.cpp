@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "azimuth_trial.hpp"
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "base/parallel.hpp"
@@ -121,16 +122,14 @@ std::optional<Vec2> fixed_center(const SliceRequest& request, std::span<const Pa
   return Vec2{box.center().x, box.center().y};
 }
 
+/// Both curves and the best turn; where the planner is clean, by trial.
 Azimuths azimuths_of(const SliceRequest& request, std::span<const Part> parts, const Slices& layers, const Use& use) {
-  return azimuths_of_print(layers, use, request.config, fixed_center(request, parts), thread_count(request.threads));
-}
-
-/// The extruders that print in a layer, ascending.
-std::vector<int> printing_in(const Slices& slices, int layer) {
-  std::vector<int> result;
-  const auto& regions = slices.regions[std::size_t(layer)];
-  for (std::size_t e = 0; e < regions.size(); ++e)
-    if (!regions[e].empty()) result.push_back(int(e));
+  const int threads = thread_count(request.threads);
+  Azimuths result = azimuths_of_print(layers, use, request.config, fixed_center(request, parts), threads);
+  const bool tries = request.config.planner == Planner::clean && is_azimuth_automatic(request, use);
+  if (!tries || result.candidates_deg.size() < 2) return result;
+  const auto trials = azimuth_trials(layers, use, request.config, result.candidates_deg, {.threads = threads});
+  result.best_deg = cleanest(trials);
   return result;
 }
 
@@ -167,9 +166,7 @@ class Print {
     for (int e = 0; e < int(config_.extruders.size()); ++e) reach_.push_back(reach(config_, e));
     visibility_.emplace(slices.outlines, height_mm, SurfaceVisibilityOptions{.threads = thread_count(request.threads)},
                         progress);
-    std::vector<std::vector<int>> printing;
-    for (std::size_t k = 0; k < slices.slabs.size(); ++k) printing.push_back(printing_in(slices, int(k)));
-    first_ = first_extruders(printing, use.extruders.front());
+    first_ = first_extruders(printing_by_layer(slices), use.extruders.front());
   }
 
   PrintFigures run(int threads) {
@@ -223,14 +220,9 @@ class Print {
   }
 
   PlanScene scene(int k) const {
-    static const Polygons nothing;
-    const auto i = std::size_t(k);
-    const Polygons& above = i + 1 < slices_.outlines.size() ? slices_.outlines[i + 1] : nothing;
-    const double width_mm = roads(config_, use_.extruders.front(), k, slices_.slabs[i]).external_perimeter.width_mm;
-    return {.part = {slices_.regions[i], slices_.outlines[i], above, slices_.slabs[i].print_z_mm, width_mm},
-            .site = rampart_.site(k),
-            .hanging = config_.idle_nozzle == IdleNozzle::same_height ? use_.hot(k, config_) : std::vector<int>{},
-            .reach = reach_};
+    PlanScene scene = plan_scene(slices_, use_, config_, rampart_, k);
+    scene.reach = reach_;
+    return scene;
   }
 
   Layer ordered(int k) {

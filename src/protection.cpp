@@ -161,6 +161,26 @@ RampartSite PrintedRampart::site(int layer) const {
   return {use_.hot(layer, config_), slices_.outlines[std::size_t(layer)]};
 }
 
+std::vector<std::vector<int>> printing_by_layer(const Slices& slices) {
+  std::vector<std::vector<int>> result(slices.regions.size());
+  for (std::size_t k = 0; k < slices.regions.size(); ++k)
+    for (std::size_t e = 0; e < slices.regions[k].size(); ++e)
+      if (!slices.regions[k][e].empty()) result[k].push_back(int(e));
+  return result;
+}
+
+PlanScene plan_scene(const Slices& slices, const Use& use, const Config& config, const PrintedRampart& rampart,
+                     int layer) {
+  static const Polygons nothing;
+  const auto k = std::size_t(layer);
+  const Polygons& above = k + 1 < slices.outlines.size() ? slices.outlines[k + 1] : nothing;
+  const double width_mm = roads(config, use.extruders.front(), layer, slices.slabs[k]).external_perimeter.width_mm;
+  return {.part = {slices.regions[k], slices.outlines[k], above, slices.slabs[k].print_z_mm, width_mm},
+          .site = rampart.site(layer),
+          .hanging = config.idle_nozzle == IdleNozzle::same_height ? use.hot(layer, config) : std::vector<int>{},
+          .reach = {}};
+}
+
 Azimuths azimuths_of_print(const Slices& slices, const Use& use, const Config& config, std::optional<Vec2> center_mm,
                            int threads) {
   AzimuthOptions options;

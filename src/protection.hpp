@@ -10,7 +10,7 @@
 #include "base/progress.hpp"
 #include "model/config.hpp"
 #include "orient/azimuth.hpp"
-#include "plan/plain_order.hpp"
+#include "plan/planner.hpp"
 #include "shield/rampart.hpp"
 #include "slice/slices.hpp"
 
@@ -53,6 +53,13 @@ class PrintedRampart {
   bool split_ = false;
   Rampart rampart_;
 };
+
+/// The extruders that print in each layer, ascending.
+std::vector<std::vector<int>> printing_by_layer(const Slices& slices);
+
+/// What the planner must know of a layer; every nozzle is taken to reach everything.
+PlanScene plan_scene(const Slices& slices, const Use& use, const Config& config, const PrintedRampart& rampart,
+                     int layer);
 
 /// Both curves, and the best turn that leaves room for the rampart. center_mm: where the middle of the turned parts'
 /// box will be; empty: of the area that all needed nozzles reach.

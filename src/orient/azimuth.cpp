@@ -13,8 +13,11 @@ namespace cleancolor {
 namespace {
 
 constexpr int angle_count = 360;
-constexpr double same_exposure = 0.25;        // of the least: smears follow it no closer
-constexpr double worth_a_turn = 0.4;          // likewise: below it the part stays as it is
+constexpr double same_exposure = 0.25;  // of the least: smears follow it no closer
+constexpr double worth_a_turn = 0.4;    // likewise: below it the part stays as it is
+constexpr double worth_a_trial = 0.5;   // likewise
+constexpr int valley_deg = 8;           // of two valleys nearer than this one counts
+constexpr std::size_t most_valleys = 3;
 constexpr double negligible_exposure = 0.01;  // of the largest
 constexpr double same_interference = 1e-3;    // share of the part
 
@@ -37,6 +40,30 @@ std::optional<int> least(const std::vector<double>& curve, const std::vector<cha
   const auto good = [&](int turn) { return fits[azimuth_slot(turn)] && at_azimuth(curve, turn) <= bound; };
   const std::vector<int> all = turns();
   return *std::ranges::find_if(all, good);
+}
+
+/// Whether no angle nearer than valley_deg has less, and none before it as little.
+bool is_valley(const std::vector<double>& curve, const std::vector<char>& fits, int deg) {
+  for (int d = 1; d < valley_deg; ++d) {
+    if (fits[azimuth_slot(deg - d)] && at_azimuth(curve, deg - d) <= at_azimuth(curve, deg)) return false;
+    if (fits[azimuth_slot(deg + d)] && at_azimuth(curve, deg + d) < at_azimuth(curve, deg)) return false;
+  }
+  return true;
+}
+
+std::vector<int> candidates(const std::vector<double>& curve, const std::vector<char>& fits, double negligible) {
+  std::vector<int> result;
+  for (const int turn : turns())
+    if (fits[azimuth_slot(turn)] && is_valley(curve, fits, turn)) result.push_back(turn);
+  std::ranges::stable_sort(result, {}, [&](int turn) { return at_azimuth(curve, turn); });
+  const auto is_deep = [&](int turn) {
+    return at_azimuth(curve, turn) <= at_azimuth(curve, result.front()) * (1 + worth_a_trial) + negligible;
+  };
+  result.erase(std::ranges::find_if_not(result, is_deep), result.end());
+  if (result.size() > most_valleys) result.resize(most_valleys);
+  const bool hopeless = at_azimuth(curve, 0) > at_azimuth(curve, result.empty() ? 0 : result.front()) * 3 + negligible;
+  if (fits[0] && !hopeless && std::ranges::find(result, 0) == result.end()) result.push_back(0);
+  return result;
 }
 
 /// Ordered pairs of extruders that print something.
@@ -99,6 +126,7 @@ Azimuths azimuths(const Slices& slices, const AzimuthOptions& options) {
   const auto smallest_turn = [&](double share) { return least(result.exposure_s, result.fits, share, negligible_s); };
   result.best_deg = smallest_turn(worth_a_turn) == 0 ? 0 : smallest_turn(same_exposure);
   result.least_interference_deg = least(result.interference_mm3, result.fits, 0, same_interference * result.part_mm3);
+  result.candidates_deg = candidates(result.exposure_s, result.fits, negligible_s);
   return result;
 }
 

@@ -61,6 +61,10 @@ struct Azimuths {
   /// Of equals the smallest turn, positive first, in (-180, 180]. Nothing where none fits.
   std::optional<int> best_deg;
   std::optional<int> least_interference_deg;
+
+  /// Where the exposure has valleys that fit and are at most half again as deep as the deepest, at most four, the
+  /// deepest first; and no turn, where it fits.
+  std::vector<int> candidates_deg;
 };
 
 /// Cost: 10 ms for each million mm2 of outlines, then below 0.5 s on two cores, independent of triangles. The same for

@@ -7,20 +7,6 @@ namespace {
 
 constexpr double step_mm = 0.25;
 
-/// The road of each segment of a path, segments ascending.
-class RoadOf {
- public:
-  explicit RoadOf(const Path& path) : path_(path) {}
-  const Road& operator()(std::size_t segment) {
-    while (next_ < path_.stretches.size() && path_.stretches[next_].first_segment <= segment) ++next_;
-    return path_.stretches[next_ - 1].road;
-  }
-
- private:
-  const Path& path_;
-  std::size_t next_ = 1;
-};
-
 }  // namespace
 
 HopTime hop_time(const Config& config, int extruder) {

@@ -88,6 +88,20 @@ inline bool begins_outer_wall(const Path& path) {
   return path.depth == 0 && path.inner.empty();
 }
 
+/// The road of each segment of a path, segments ascending.
+class RoadOf {
+ public:
+  explicit RoadOf(const Path& path) : path_(path) {}
+  const Road& operator()(std::size_t segment) {
+    while (next_ < path_.stretches.size() && path_.stretches[next_].first_segment <= segment) ++next_;
+    return path_.stretches[next_ - 1].road;
+  }
+
+ private:
+  const Path& path_;
+  std::size_t next_ = 1;
+};
+
 /// How long a path takes with its inner loops, without accelerations.
 double seconds_of(const Path& path);
 

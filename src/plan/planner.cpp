@@ -358,6 +358,11 @@ void PlannedLayer::arrive_from(const Layer& below) {
   for (Vec2& p : path.travel) p = p + offset(path);
 }
 
+LayerForecast PlannedLayer::forecast() const {
+  if (!first_) return {};
+  return layer_forecast(layer_.paths, first_->cost, {}, hop_time(*config_, layer_.paths.front().extruder));
+}
+
 Layer PlannedLayer::release() && {
   map_.reset();
   first_.reset();

@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "plan/layer_forecast.hpp"
 #include "plan/layer_map.hpp"
 #include "plan/plain_order.hpp"
 
@@ -43,6 +44,10 @@ class PlannedLayer {
 
   /// The way to the first path from where the layer below ended.
   void arrive_from(const Layer& below);
+
+  /// What the layer as planned is predicted to spoil, the way to its first path aside.  Requires: not released; idle
+  /// nozzles stay at print height.
+  LayerForecast forecast() const;
 
   /// The layer, and frees the rest.
   Layer release() &&;

@@ -77,6 +77,11 @@ void add_entries(const Path& path, Vec2 offset_mm, const TravelCost& cost, const
   }
 }
 
+struct Cell {
+  std::int32_t x, y;
+  friend bool operator==(Cell, Cell) = default;
+};
+
 /// A field of distances to what must not be crossed, in the carriage's frame.
 class Field {
  public:
@@ -88,7 +93,7 @@ class Field {
     nearest_.assign(std::size_t(columns_) * std::size_t(rows_), none);
     for (int y = 0; y < rows_; ++y)
       for (int x = 0; x < columns_; ++x)
-        if (is_barred(cost, place(x, y))) nearest_[index(x, y)] = std::int32_t(index(x, y));
+        if (is_barred(cost, place(x, y))) nearest_[index(x, y)] = {x, y};
     sweep();
   }
 
@@ -98,24 +103,22 @@ class Field {
   Vec2 place(int x, int y) const { return origin_ + Vec2{x + 0.5, y + 0.5} * cell_mm_; }
   /// In mm; infinite where nothing is barred.
   double distance_mm(int x, int y) const {
-    const std::int32_t n = nearest_[index(x, y)];
-    return n == none ? INFINITY : cell_mm_ * std::sqrt(double(squared(x, y, n)));
+    const Cell n = nearest_[index(x, y)];
+    return n == none ? INFINITY : cell_mm_ * std::sqrt(double(squared({x, y}, n)));
   }
   /// Whether the nearest barred places of this cell and of one of its neighbours lie far apart.
   bool is_between(int x, int y) const {
-    const std::int32_t n = nearest_[index(x, y)];
+    const Cell n = nearest_[index(x, y)];
     if (n == none) return false;
-    for (const auto& [i, j] : {std::pair{x + 1, y}, {x, y + 1}}) {
-      if (i >= columns_ || j >= rows_) continue;
-      const std::int32_t m = nearest_[index(i, j)];
-      const double dx = n % columns_ - m % columns_, dy = n / columns_ - m / columns_;
-      if (cell_mm_ * std::hypot(dx, dy) > ridge_mm) return true;
-    }
-    return false;
+    const double far = ridge_mm / cell_mm_;
+    const auto lies_far = [&](int i, int j) {
+      return i < columns_ && j<rows_&& double(squared(n, nearest_[index(i, j)]))> far * far;
+    };
+    return lies_far(x + 1, y) || lies_far(x, y + 1);
   }
 
  private:
-  static constexpr std::int32_t none = -1;
+  static constexpr Cell none{-1, -1};
 
   /// Whether a nozzle that stands here is over visible plastic of another colour.
   static bool is_barred(const TravelCost& cost, Vec2 p) {
@@ -126,15 +129,16 @@ class Field {
     return false;
   }
   std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(columns_) + std::size_t(x); }
-  int squared(int x, int y, std::int32_t to) const {
-    const int dx = x - to % columns_, dy = y - to / columns_;
+  static std::int64_t squared(Cell a, Cell b) {
+    const std::int64_t dx = a.x - b.x, dy = a.y - b.y;
     return dx * dx + dy * dy;
   }
   void take(int x, int y, int i, int j) {
     if (i < 0 || j < 0 || i >= columns_ || j >= rows_) return;
-    const std::int32_t other = nearest_[index(i, j)];
-    std::int32_t& own = nearest_[index(x, y)];
-    if (other != none && (own == none || squared(x, y, other) < squared(x, y, own))) own = other;
+    const Cell other = nearest_[index(i, j)];
+    Cell& own = nearest_[index(x, y)];
+    if (other == none || other == own) return;
+    if (own == none || squared({x, y}, other) < squared({x, y}, own)) own = other;
   }
   /// Every cell asks its neighbours, forwards and back (Danielsson): off by less than a cell.
   void sweep() {
@@ -151,7 +155,7 @@ class Field {
   Vec2 origin_;
   double cell_mm_ = field_mm;
   int columns_ = 0, rows_ = 0;
-  std::vector<std::int32_t> nearest_;  // the barred cell
+  std::vector<Cell> nearest_;  // that is barred
 };
 
 /// Ways around shapes and between them, thinned to one node for each square of pathway_mm.

@@ -56,7 +56,8 @@ std::vector<Path> half_wall_paths(const Polygons& wall, const std::array<WallPri
   for (const WallPrinter& printer : printers) {
     for (const Ring& ring : wall) {
       const std::vector<Vec2> points = to_mm(ring);
-      const double middle = dot(bounds_mm(Polygons{ring}).center(), along);
+      const auto [least, most] = std::ranges::minmax(points, {}, [&](Vec2 p) { return dot(p, along); });
+      const double middle = dot(least + most, along) / 2;
       const auto pieces = pieces_beyond(points, along, middle - overlap_mm / 2);
       const bool whole = pieces.size() == 1 && pieces.front() == points;
       if (whole && &printer != &printers[0]) continue;
