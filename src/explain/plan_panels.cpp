@@ -15,6 +15,7 @@ namespace {
 
 constexpr double sample_mm = 0.2;  // of ways, to tell what lies below
 constexpr double barred_mm = 0.2;  // rows of the barred places
+constexpr double most_rows = 1000;
 constexpr double detail_mm = 0.01;
 constexpr double thinnest_px = 0.8;
 
@@ -26,13 +27,16 @@ Box<Vec2> with_air(Box<Vec2> box) {
   return {box.min - Vec2{air_mm, air_mm}, box.max + Vec2{air_mm, air_mm}};
 }
 
+bool is_foreign(LayerMap::Cell cell, int nozzle) {
+  return cell.extruder != LayerMap::air && cell.extruder != nozzle && cell.visibility > 0;
+}
+
 /// Pieces of a -> b over visible plastic that another nozzle printed.
 void add_foreign_pieces(std::vector<Line>& pieces, const LayerMap& map, Vec2 a, Vec2 b, int nozzle) {
   const int steps = int(distance(a, b) / sample_mm) + 1;
   bool goes_on = false;
   for (int i = 0; i < steps; ++i) {
-    const LayerMap::Cell cell = map.at(lerp(a, b, (i + 0.5) / steps));
-    const bool is_over = cell.extruder != LayerMap::air && cell.extruder != nozzle && cell.visibility > 0;
+    const bool is_over = is_foreign(map.at(lerp(a, b, (i + 0.5) / steps)), nozzle);
     const Vec2 from = lerp(a, b, double(i) / steps), to = lerp(a, b, double(i + 1) / steps);
     if (is_over && goes_on) pieces.back().back() = to;
     if (is_over && !goes_on) pieces.push_back({from, to});
@@ -161,31 +165,33 @@ void draw_pieces(const Panel& panel, const std::vector<Line>& pieces, double wid
   for (const Line& piece : pieces) panel.line(piece, width_px, bad_ink);
 }
 
-/// Where some nozzle hangs over visible plastic of another colour when the carriage is there.
+/// Nozzles that print in the layer, ascending.
+std::vector<int> printing_in(const PlanScenery& s) {
+  std::vector<int> nozzles;
+  for (const int n : s.plan.used)
+    if (std::ranges::any_of(s.plan.printed.runs, [&](const PrintedRun& run) { return run.path.extruder == n; }))
+      nozzles.push_back(n);
+  return nozzles;
+}
+
+/// Where a nozzle hangs over visible plastic of another colour when the carriage is there: rows of a raster.
 std::vector<Line> barred_places(const Panel& panel, const PlanScenery& s) {
-  const TravelCost& cost = s.plan.cost(s.plan.used.empty() ? 0 : s.plan.used.front());
-  const LayerMap& map = s.plan.map ? *s.plan.map : cost.map();
   std::vector<Line> boxes;
+  const LayerMap& map = *s.plan.map;
   const Box<Vec2>& view = map.box_mm();
   if (view.empty()) return boxes;
-  const double step = std::max(barred_mm, std::max(view.size().x, view.size().y) / 1000);
-  for (const auto& n : cost.nozzles()) {
-    const auto rows = int(view.size().y / step) + 1, columns = int(view.size().x / step) + 1;
-    for (int y = 0; y < rows; ++y) {
-      int begin = -1;
-      for (int x = 0; x <= columns; ++x) {
-        const Vec2 p = view.min + Vec2{x + 0.5, y + 0.5} * step;
-        const LayerMap::Cell cell = x < columns ? map.at(p) : LayerMap::Cell{};
-        const bool is_barred = cell.extruder != LayerMap::air && cell.visibility > 0 && cell.extruder != n.extruder;
-        if (is_barred && begin < 0) begin = x;
-        if (is_barred || begin < 0) continue;
-        const Vec2 a = view.min + Vec2{double(begin), double(y)} * step - n.offset_mm;
-        const Vec2 b = a + Vec2{double(x - begin), 1.02} * step;
-        begin = -1;
+  const double step = std::max(barred_mm, std::max(view.size().x, view.size().y) / most_rows);
+  const int rows = int(view.size().y / step) + 1, columns = int(view.size().x / step) + 1;
+  for (const int n : s.plan.hanging ? s.plan.used : printing_in(s))
+    for (int y = 0; y < rows; ++y)
+      for (int x = 0, end = 0; x < columns; x = end + 1) {
+        const auto foreign = [&](int i) { return is_foreign(map.at(view.min + Vec2{i + 0.5, y + 0.5} * step), n); };
+        for (end = x; end < columns && foreign(end);) ++end;
+        if (end == x) continue;
+        const Vec2 a = view.min + Vec2{double(x), double(y)} * step - nozzle_offset_mm(s.machine, n);
+        const Vec2 b = a + Vec2{double(end - x), 1.02} * step;  // rows overlap, or gaps would shine through
         if (panel.shows(a) || panel.shows(b)) boxes.push_back({a, {b.x, a.y}, b, {a.x, b.y}});
       }
-    }
-  }
   return boxes;
 }
 

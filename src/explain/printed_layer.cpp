@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -167,11 +168,15 @@ OuterWall outer_wall(const Path& run) {
   const auto first = std::ranges::find_if(all, outer);
   if (first == all.end()) return {};
   OuterWall wall{.first = first->first_segment, .last = run.segments()};
-  // Where the wall overhangs it is one, too; the loop inside it is none.
-  const auto not_inner = [](const Stretch& s) { return s.road.role == Role::overhang_perimeter; };
-  if (std::all_of(all.begin(), first, not_inner)) wall.first = 0;
-  const auto after = std::find_if(first, all.end(), [&](const Stretch& s) { return !outer(s) && !not_inner(s); });
+  const auto overhangs = [](const Stretch& s) { return s.road.role == Role::overhang_perimeter; };
+  const auto after = std::find_if(first, all.end(), [&](const Stretch& s) { return !outer(s) && !overhangs(s); });
   if (after != all.end()) wall.last = after->first_segment;
+  // What overhangs just before may be the wall's, too, or the end of the loop inside it: a wall begins where it ends.
+  auto before = first;
+  while (before != all.begin() && overhangs(*std::prev(before))) --before;
+  const auto apart = [&](std::size_t segment) { return distance(run.points[segment], end_mm(run, wall)); };
+  for (std::size_t i = first->first_segment; i-- > before->first_segment;)
+    if (apart(i) <= apart(wall.first)) wall.first = i;
   return wall;
 }
 

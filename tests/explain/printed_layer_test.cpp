@@ -104,6 +104,19 @@ TEST(PrintedLayer, TakesAnOuterWallAndTheLoopInsideItApart) {
   EXPECT_EQ(outer.inner[0].road().role, Role::perimeter);
 }
 
+TEST(PrintedLayer, FindsWhereAnOuterWallBeginsThatOverhangsThere) {
+  Drawing d = one_nozzle();
+  d.type("Perimeter").go({0.6, 5.3}).lay({0.6, 9.4}).lay({9.4, 9.4}).lay({9.4, 0.6});
+  d.type("Overhang perimeter").lay({0.6, 0.6}).lay({0.6, 4.7}).lay({0.2, 5}).lay({0.2, 9.8});
+  d.wall().lay({9.8, 9.8}).lay({9.8, 0.2}).lay({0.2, 0.2}).lay({0.2, 5});
+  const Path run = printed(d).runs.at(0).path;
+  EXPECT_EQ(begin_mm(run, outer_wall(run)), (Vec2{0.2, 5}));
+  Drawing whole = one_nozzle();
+  whole.type("Overhang perimeter").go({0.2, 5}).lay({0.2, 9.8}).wall().lay({9.8, 9.8}).lay({9.8, 0.2}).lay({0.2, 5});
+  const Path loop = printed(whole).runs.at(0).path;
+  EXPECT_EQ(begin_mm(loop, outer_wall(loop)), (Vec2{0.2, 5}));
+}
+
 TEST(PrintedLayer, LeavesRunsThatAreNoLoopsAsTheyAre) {
   Drawing d = one_nozzle();
   d.wall().road({0, 0}, {10, 0}).lay({10, 10});
