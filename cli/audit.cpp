@@ -11,8 +11,8 @@
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "cli/console.hpp"
+#include "cli/machine_arguments.hpp"
 #include "cli/separate_files.hpp"
-#include "model/settings.hpp"
 #include "reader/read.hpp"
 
 namespace cleancolor {
@@ -27,15 +27,6 @@ struct Judged {
   std::vector<std::string> warnings;
 };
 
-MachineRequest machine_request(const AuditCommand& command, const Progress& progress) {
-  MachineRequest request;
-  if (!command.printer.empty()) request.printer = config_of({.printer = command.printer}, progress);
-  request.nozzle_offset_mm = command.nozzle_offset_mm;
-  request.offsets_in = command.offsets_in;
-  request.idle_nozzle = command.idle_nozzle;
-  return request;
-}
-
 std::unique_ptr<Judged> judged(const AuditCommand& command, const std::filesystem::path& file,
                                const MachineRequest& request, const Progress& progress) {
   auto one = std::make_unique<Judged>();
@@ -46,9 +37,7 @@ std::unique_ptr<Judged> judged(const AuditCommand& command, const std::filesyste
     progress.warn(message);
   };
   one->print = read_gcode_file(file, own);
-  if (command.layer && *command.layer >= one->print.layers.size())
-    throw Error(fmt::format("{}: there is no layer {}; it has {}, numbered from 1", one->name, *command.layer + 1,
-                            one->print.layers.size()));
+  if (command.layer) require_layer(one->print, *command.layer);
   one->machine = audit_machine(one->print, request, own);
   one->print.text.reset();  // the moves tell all that follows
   AuditOptions options;

@@ -47,22 +47,6 @@ std::string footer() {
   return text + "\n" + exit_codes;
 }
 
-void add_machine(CLI::App& app, AuditTexts& texts) {
-  const char* group = "The printer";
-  app.add_option("--printer", texts.command.printer, "printer: a name from 'cleancolor profiles', or a .toml file")
-      ->type_name("NAME|FILE.toml")
-      ->group(group);
-  app.add_option("--nozzle-offset", texts.nozzle_offset, "where each nozzle is, as seen from the first, mm")
-      ->type_name("XxY,XxY...")
-      ->group(group);
-  app.add_option("--offsets-in", texts.offsets_in, "who makes up for the offsets: the file has them in X and Y, or not")
-      ->type_name("slicer|firmware")
-      ->group(group);
-  app.add_option("--idle-nozzle", texts.idle_nozzle, "where nozzles are while another one is in use")
-      ->type_name("same_height|lifted|parked|docked")
-      ->group(group);
-}
-
 // allow_extra_args(false): an option that may come again takes one word at a time, or it would swallow the files.
 void add_judging(CLI::App& app, AuditTexts& texts) {
   const char* group = "How to judge";
@@ -98,45 +82,6 @@ void add_output(CLI::App& app, AuditTexts& texts) {
   app.add_option("--threads", command.threads, "number of threads; 0: as many as the machine has")
       ->type_name("N")
       ->group(group);
-}
-
-std::vector<std::string_view> split(std::string_view text, char at) {
-  std::vector<std::string_view> pieces;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.size(), text.find(at, begin));
-    pieces.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return pieces;
-}
-
-std::vector<Vec2> offsets_of(std::string_view text) {
-  constexpr double farthest_mm = 1000;
-  std::vector<Vec2> offsets;
-  for (const std::string_view point : split(text, ',')) {
-    const std::size_t x = point.find('x');
-    Vec2 at;
-    if (x == point.npos || !parse_whole(point.substr(0, x), at.x) || !parse_whole(point.substr(x + 1), at.y) ||
-        !(std::abs(at.x) <= farthest_mm) || !(std::abs(at.y) <= farthest_mm))
-      throw Error(
-          fmt::format("--nozzle-offset: '{}' is not like 33x0, mm in X and Y; say 0x0,33x0 for two nozzles", point));
-    offsets.push_back(at);
-  }
-  if (offsets.size() > max_tools)
-    throw Error(fmt::format("--nozzle-offset: {} nozzles; at most {} are possible", offsets.size(), max_tools));
-  if (offsets.front() != Vec2{})
-    throw Error("--nozzle-offset: the first nozzle is at 0x0; the others are given as seen from it");
-  return offsets;
-}
-
-template <class T, std::size_t n>
-T choice(const std::string& option, const std::string& text, const std::array<std::pair<const char*, T>, n>& choices) {
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : choices) {
-    if (text == name) return value;
-    names.emplace_back(name);
-  }
-  throw Error(fmt::format("{}: '{}' is none of {}", option, text, fmt::join(names, ", ")));
 }
 
 /// "[SCENARIO.]NAME=VALUE"
@@ -223,12 +168,6 @@ FigureLimit limit_of(const AuditCommand& command, std::string_view text) {
   return limit;
 }
 
-void require_ending(const std::filesystem::path& path, std::string_view option, std::string_view ending,
-                    std::string_view hint) {
-  if (!path.empty() && path.extension() != ending)
-    throw Error(fmt::format("{} {}: the file's name must end in {}; {}", option, path.string(), ending, hint));
-}
-
 void require_outputs(const AuditCommand& command, bool layer_is_said) {
   const bool draws = !command.svg.empty() || !command.png.empty();
   require_ending(command.svg, "--svg", ".svg", "a PNG is written by --png");
@@ -245,7 +184,7 @@ CLI::App* add_audit(CLI::App& program, AuditTexts& texts) {
   CLI::App* audit = program.add_subcommand("audit", "predict smears and holes of G-code from any slicer");
   audit->footer(footer());
   audit->add_option("files", texts.command.files, "G-code files")->type_name("FILE");
-  add_machine(*audit, texts);
+  add_machine(*audit, texts.machine);
   add_judging(*audit, texts);
   add_output(*audit, texts);
   return audit;
@@ -254,26 +193,12 @@ CLI::App* add_audit(CLI::App& program, AuditTexts& texts) {
 AuditCommand audit_command(AuditTexts texts) {
   AuditCommand command = std::move(texts.command);
   if (command.files.empty()) throw Error("audit: name at least one G-code file; see cleancolor audit --help");
-  if (!texts.nozzle_offset.empty()) command.nozzle_offset_mm = offsets_of(texts.nozzle_offset);
-  if (!texts.offsets_in.empty())
-    command.offsets_in = choice<OffsetsIn, 2>("--offsets-in", texts.offsets_in,
-                                              {{{"slicer", OffsetsIn::slicer}, {"firmware", OffsetsIn::firmware}}});
-  if (!texts.idle_nozzle.empty())
-    command.idle_nozzle = choice<IdleNozzle, 4>("--idle-nozzle", texts.idle_nozzle,
-                                                {{{"same_height", IdleNozzle::same_height},
-                                                  {"lifted", IdleNozzle::lifted},
-                                                  {"parked", IdleNozzle::parked},
-                                                  {"docked", IdleNozzle::docked}}});
+  static_cast<MachineOptions&>(command) = machine_options(texts.machine);
   command.scenarios = scenarios(texts.sensitivity);
   command.scenario = scenario_index(command.scenarios, texts.scenario, "--scenario");
   for (const std::string& text : texts.ooze) set_ooze(command.scenarios, text);
   for (const std::string& text : texts.limits) command.limits.push_back(limit_of(command, text));
-  if (!texts.layer.empty()) {
-    std::uint32_t layer = 0;
-    if (!parse_whole(texts.layer, layer) || layer == 0)
-      throw Error(fmt::format("--layer: '{}' is not a layer; they are numbered from 1", texts.layer));
-    command.layer = layer - 1;
-  }
+  if (!texts.layer.empty()) command.layer = layer_index(texts.layer);
   if (!texts.places.empty() && (!parse_whole(texts.places, command.places) || command.places > most_places))
     throw Error(fmt::format("--places: '{}' is not a number up to {}", texts.places, most_places));
   command.json_on_standard_output = texts.json == "-";

@@ -8,15 +8,14 @@
 #include <vector>
 
 #include "cli/command_line.hpp"
+#include "cli/machine_arguments.hpp"
 
 namespace cleancolor {
 
 /// As CLI11 collects them.
 struct AuditTexts {
   AuditCommand command;
-  std::string nozzle_offset;
-  std::string offsets_in;
-  std::string idle_nozzle;
+  MachineTexts machine;
   std::vector<std::string> ooze;
   std::vector<std::string> limits;
   std::string scenario = "worst";

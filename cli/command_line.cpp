@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "cli/audit_arguments.hpp"
+#include "cli/explain_arguments.hpp"
 #include "cli/slice_arguments.hpp"
 #include "cli/words.hpp"
 
@@ -21,6 +22,7 @@ constexpr const char* description =
     "  cleancolor slice a.stl b.stl -o ab.gcode --load my-prusaslicer.ini\n"
     "  cleancolor azimuth ocean.stl land.stl --printer replicator-dual -o azimuth.svg\n"
     "  cleancolor audit print.gcode --printer replicator-dual\n"
+    "  cleancolor explain globe.gcode --layer 60 -o layer.svg\n"
     "  cleancolor profiles\n"
     "  cleancolor options infill\n";
 
@@ -57,6 +59,8 @@ Command parse_command_line(std::vector<std::string> arguments) {
   CLI::App* azimuth = add_azimuth(app, azimuth_texts);
   AuditTexts audit_texts;
   CLI::App* audit = add_audit(app, audit_texts);
+  ExplainTexts explain_texts;
+  CLI::App* explain = add_explain(app, explain_texts);
 
   ProfilesCommand profiles;
   CLI::App* list = app.add_subcommand("profiles", "list printers, materials and print settings");
@@ -76,21 +80,25 @@ Command parse_command_line(std::vector<std::string> arguments) {
     return TextCommand{std::string(call.what()) + "\n"};
   } catch (const CLI::CallForHelp&) {
     const CLI::App* asked = &app;
-    for (const CLI::App* sub : {slice, azimuth, audit, list, show, options}) asked = sub->parsed() ? sub : asked;
+    for (const CLI::App* sub : {slice, azimuth, audit, explain, list, show, options})
+      asked = sub->parsed() ? sub : asked;
     if (asked == slice) slice->description(slice_description);
     if (asked == azimuth) azimuth->description(azimuth_description);
     if (asked == audit) audit->description(audit_description);
+    if (asked == explain) explain->description(explain_description);
     return TextCommand{asked->help(asked == &app ? "" : asked == show ? "cleancolor profiles" : "cleancolor")};
   } catch (const CLI::ParseError& fault) {
     throw Error(fmt::format("{}; see cleancolor {}--help", fault.what(),
                             slice->parsed()     ? "slice "
                             : azimuth->parsed() ? "azimuth "
                             : audit->parsed()   ? "audit "
+                            : explain->parsed() ? "explain "
                                                 : ""));
   }
   if (slice->parsed()) return slice_command(*slice, std::move(slice_texts));
   if (azimuth->parsed()) return azimuth_command(*azimuth, std::move(azimuth_texts));
   if (audit->parsed()) return audit_command(std::move(audit_texts));
+  if (explain->parsed()) return explain_command(std::move(explain_texts));
   if (list->parsed()) return profiles;
   return reference;
 }

@@ -52,21 +52,36 @@ struct FigureLimit {
   double most = 0;
 };
 
-/// cleancolor audit
-struct AuditCommand {
-  std::vector<std::filesystem::path> files;  // at least one
-  std::string printer;                       // name or file; empty: not said
-  std::vector<Vec2> nozzle_offset_mm;        // empty: not said
+/// The printer that G-code is for.
+struct MachineOptions {
+  std::string printer;                 // name or file; empty: not said
+  std::vector<Vec2> nozzle_offset_mm;  // empty: not said
   std::optional<OffsetsIn> offsets_in;
   std::optional<IdleNozzle> idle_nozzle;
-  std::vector<Scenario> scenarios;  // what --sensitivity and --ooze make of them
-  std::size_t scenario = 0;         // the one that is shown first
+};
+
+/// cleancolor audit
+struct AuditCommand : MachineOptions {
+  std::vector<std::filesystem::path> files;  // at least one
+  std::vector<Scenario> scenarios;           // what --sensitivity and --ooze make of them
+  std::size_t scenario = 0;                  // the one that is shown first
   std::vector<FigureLimit> limits;
   bool compare = false;
   std::optional<std::uint32_t> layer;          // 0-based, to be drawn; empty: the worst one
   std::filesystem::path html, json, svg, png;  // empty: none
   bool json_on_standard_output = false;
   std::size_t places = 10;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// cleancolor explain
+struct ExplainCommand : MachineOptions {
+  std::filesystem::path file;
+  std::uint32_t layer = 0;       // 0-based
+  std::filesystem::path output;  // .svg or .png; empty: none
+  std::filesystem::path json;    // empty: none
+  bool json_on_standard_output = false;
   int threads = 0;
   bool quiet = false;
 };
@@ -87,7 +102,8 @@ struct TextCommand {
   std::string text;
 };
 
-using Command = std::variant<SliceCommand, AzimuthCommand, AuditCommand, ProfilesCommand, OptionsCommand, TextCommand>;
+using Command = std::variant<SliceCommand, AzimuthCommand, AuditCommand, ExplainCommand, ProfilesCommand,
+                             OptionsCommand, TextCommand>;
 
 /// arguments: without the program's name. Throws Error for anything that is not understood.
 Command parse_command_line(std::vector<std::string> arguments);

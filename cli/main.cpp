@@ -9,6 +9,7 @@
 #include "cli/audit.hpp"
 #include "cli/azimuth.hpp"
 #include "cli/command_line.hpp"
+#include "cli/explain.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/profiles.hpp"
 #include "cli/slice.hpp"
@@ -25,6 +26,8 @@ int run(const Command& command) {
     run(*azimuth, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
   } else if (const auto* audit = std::get_if<AuditCommand>(&command)) {
     code = run(*audit, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
+  } else if (const auto* explain = std::get_if<ExplainCommand>(&command)) {
+    run(*explain, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
   } else if (const auto* profiles = std::get_if<ProfilesCommand>(&command)) {
     std::cout << text_of(*profiles);
   } else if (const auto* options = std::get_if<OptionsCommand>(&command)) {

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <charconv>
+#include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace cleancolor {
 
@@ -22,6 +24,13 @@ bool parse_whole(std::string_view text, T& value) {
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
   return fault == std::errc() && end == text.data() + text.size();
 }
+
+/// The pieces between the letters `at`; one where there is none.
+std::vector<std::string_view> split(std::string_view text, char at);
+
+/// Throws Error where the file, if there is one, does not end so; hint: what to do.
+void require_ending(const std::filesystem::path& path, std::string_view option, std::string_view ending,
+                    std::string_view hint);
 
 /// Throws Error where --threads cannot be used.
 void require_threads(int threads);
