@@ -43,16 +43,19 @@ def model_case(name, layer_mm):
     return [*models.stl_pair(name), "--load", models.SETTINGS, *layer_height(layer_mm)]
 
 
-# What is sliced, by comparisons: {title: arguments of cleancolor slice}. The columns of one have the same number of triangles.
 def cases():
-    halves = "--set", "rampart_walls=double"
-    comparisons = [
-        {"column, 2 nozzles": column_case(2, 240, 240, 90, 0.3, *halves),
-         "column, 4 nozzles": column_case(4, 240, 240, 90, 0.3, *halves)},
-        {"column": column_case(2, 240, 240, 60, 0.3), "column, twice as tall": column_case(2, 240, 240, 120, 0.3)},
-    ]
+    """What is sliced, by comparisons: [{title: arguments of cleancolor slice}]. The first is by nozzles, all of them with as many
+    walls of the rampart as nozzles; the others double the layers, and double them again."""
+    walls = "--set", "rampart_walls=double"
+    halves, quarters = (column_case(wedges, 240, 240, 90, 0.3, *walls) for wedges in (2, 4))
+    two_nozzles = [word for k, file in enumerate(column(4, 240, 240, 90)) for word in ("--extruder", str(k % 2 + 1), file)]
+    comparisons = [{
+        "column of 2 wedges, 2 nozzles": halves,
+        "column of 4 wedges, 2 nozzles": [*two_nozzles, *machine(2), *layer_height(0.3), *walls],
+        "column of 4 wedges, 4 nozzles": quarters,
+    }, {f"column, {tall} mm tall": column_case(2, 240, 240, tall, 0.3) for tall in (50, 100, 200)}]
     for name in ("two-color-world-50mm", "dragon-heart"):
-        comparisons.append({name: model_case(name, 0.3), f"{name}, half the layer height": model_case(name, 0.15)})
+        comparisons.append({f"{name}, layers of {mm} mm": model_case(name, mm) for mm in (0.3, 0.15, 0.075)})
     return comparisons
 
 
@@ -90,17 +93,22 @@ def row(title, arguments, run):
             f"{run['planning_wall_s']:.2f} | {run['planning_cpu_s']:.2f} | {run['memory_mb']:.0f} |")
 
 
-def promises(runs, nozzles, doubled):
-    """[(what, figure, allowed)]: nozzles and doubled are pairs of titles."""
-    few, many = (runs[title] for title in nozzles)
-    found = [("planning with 4 nozzles, of that with 2", many["planning_wall_s"] / few["planning_wall_s"], NOZZLES_TIMES)]
-    for once, twice in doubled:
-        a, b = runs[once], runs[twice]
-        grown_kb = 1024 * (b["memory_mb"] - a["memory_mb"]) / (b["layers"] - a["layers"])
-        found += [(f"{once}: wall time with twice the layers", b["wall_s"] / a["wall_s"], LAYERS_TIMES),
-                  (f"{once}: kB of peak memory for each further layer", grown_kb, KB_A_LAYER)]
-    most = max(runs, key=lambda title: runs[title]["memory_mb"])
-    return [*found, (f"peak MB ({most})", runs[most]["memory_mb"], PEAK_MB)]
+def promises(comparisons):
+    """[(what, figure, allowed)] of measured cases, in the order of `cases`."""
+    by_nozzles, *by_layers, large = [list(runs.items()) for runs in comparisons]
+    (_, halves), (_, same_parts), (_, quarters) = by_nozzles
+    found = [("planning with 4 nozzles, of that with 2: wedges as many as nozzles", halves),
+             ("the same: 4 wedges on both", same_parts)]
+    found = [(what, quarters["planning_wall_s"] / few["planning_wall_s"], NOZZLES_TIMES) for what, few in found]
+    for runs in by_layers:
+        (title, first), (_, last) = runs[0], runs[-1]
+        growth = [b["wall_s"] / a["wall_s"] for (_, a), (_, b) in zip(runs, runs[1:])]
+        kept_kb = 1024 * (last["memory_mb"] - first["memory_mb"]) / (last["layers"] - first["layers"])
+        name = title.partition(",")[0]
+        found += [(f"{name}: wall time with twice the layers, the greater of two doublings", max(growth), LAYERS_TIMES),
+                  (f"{name}: kB of peak memory for each further layer", kept_kb, KB_A_LAYER)]
+    title, most = max((case for runs in (by_nozzles, *by_layers, large) for case in runs), key=lambda case: case[1]["memory_mb"])
+    return [*found, (f"peak MB ({title})", most["memory_mb"], PEAK_MB)]
 
 
 def promise_table(found):
@@ -113,15 +121,13 @@ def promise_table(found):
 
 def measure(options):
     """The tables as Markdown, and sentences about what fails."""
-    runs, pairs, lines = {}, [], [HEADER]
+    results, lines = [], [HEADER]
     print(HEADER)
     for comparison in [*cases(), {LARGE: large_case()}]:
-        own = measured(options.program, comparison, 1 if LARGE in comparison else options.rounds)
-        runs |= own
-        pairs.append(tuple(comparison))
-        lines += [row(title, comparison[title], run) for title, run in own.items()]
-        print(*lines[-len(own):], sep="\n", flush=True)
-    found = promises(runs, pairs[0], pairs[1:-1])
+        results.append(measured(options.program, comparison, 1 if LARGE in comparison else options.rounds))
+        lines += [row(title, comparison[title], run) for title, run in results[-1].items()]
+        print(*lines[-len(comparison):], sep="\n", flush=True)
+    found = promises(results)
     notes = (f"A figure is the median of {options.rounds} rounds, of the large model one run. Machine: {os.cpu_count()} cores, "
              f"{platform.machine()}.\n\n")
     failed = [f"{what}: {figure:.2f}; allowed are {allowed:g}" for what, figure, allowed in found if figure > allowed]
