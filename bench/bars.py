@@ -6,7 +6,7 @@ print another part: the hardest reading.
 
 from dataclasses import dataclass
 
-from judge import figure, filament_mm3, sensitivity
+from judge import compares, figure, filament_mm3, sensitivity
 from peers import COMPARED
 
 
@@ -58,14 +58,16 @@ class Check:
                 f"allowed are {self.bar:.2f}" + (f", or less than {self.little}" if self.little else ""))
 
 
-def best_peer(rows, key, scenario):
-    """(figure, title) of the least of the others."""
-    return min(((figure(rows[slicer, variant], key, scenario), title)
-                for slicer, variant, title in COMPARED if slicer != "ours"), key=lambda pair: pair[0])
+def best_peer(name, rows, key, scenario):
+    """(figure, title) of the least of the others; of equals, one that prints the same part."""
+    row = min(((slicer, variant) for slicer, variant, _ in COMPARED if slicer != "ours"),
+              key=lambda row: (figure(rows[row], key, scenario), not compares(name, rows, row)))
+    title = next(title for *entry, title in COMPARED if tuple(entry) == row)
+    return figure(rows[row], key, scenario), title if compares(name, rows, row) else f"{title}, another part"
 
 
-def volume_check(rows, what, scenario, bar):
-    other, whose = best_peer(rows, VOLUMES[what], scenario)
+def volume_check(name, rows, what, scenario, bar):
+    other, whose = best_peer(name, rows, VOLUMES[what], scenario)
     ours = figure(rows["ours", "default"], VOLUMES[what], scenario)
     return Check(what if scenario == "worst" else f"{what} under {scenario}", ours, other, whose, bar,
                  LITTLE_SMEAR_MM3 if what == "smear" else 0)
@@ -80,10 +82,10 @@ def checks(name, rows):
     minutes = [judged["print"]["time_s"] / 60 for judged in (ours, none)]
     cm3 = [filament_mm3(judged) / 1000 for judged in (ours, none)]
     return {
-        "smear": [volume_check(rows, "smear", "worst", bar.smear)],
-        "holes": [volume_check(rows, "holes", "worst", HOLES)],
-        "smear varied": [volume_check(rows, "smear", variant, UNDER_VARIANTS) for variant in variants],
-        "holes varied": [volume_check(rows, "holes", variant, UNDER_VARIANTS) for variant in variants],
+        "smear": [volume_check(name, rows, "smear", "worst", bar.smear)],
+        "holes": [volume_check(name, rows, "holes", "worst", HOLES)],
+        "smear varied": [volume_check(name, rows, "smear", variant, UNDER_VARIANTS) for variant in variants],
+        "holes varied": [volume_check(name, rows, "holes", variant, UNDER_VARIANTS) for variant in variants],
         "zippers": [Check("zippers", *zippers, "PrusaSlicer", bar.zippers)],
         "time": [Check("minutes", *minutes, "--protect none", bar.time)],
         "filament": [Check("cm3 of filament", *cm3, "--protect none", bar.filament)],
@@ -110,8 +112,8 @@ def cells(column, check):
 
 def table(results):
     """Markdown: a line for each model, ours / theirs. results: {name: rows}"""
-    lines = ["| model | smear, mm3: ours / best of the others | ratio | holes, mm3 | ratio | hardest variant of the audit: smear | "
-             "holes | zippers: ours / PrusaSlicer | ratio | time over --protect none | filament |", "|" + "---|" * 11]
+    lines = ["| model | smear, mm3: ours / best of the others | ratio | holes, mm3 | ratio | "
+             "hardest variant of the audit: smear | holes | zippers: ours / PrusaSlicer | ratio | time over --protect none | filament |", "|" + "---|" * 11]
     for name, rows in results.items():
         row = [cell for column, several in checks(name, rows).items() for cell in cells(column, hardest(several))]
         lines.append(" | ".join([f"| {name}", *row]) + " |")

@@ -31,7 +31,8 @@ def prusa_command(name, output):
 
 def our_command(program, name, output, *added):
     """On two threads; PrusaSlicer takes as many as the machine has."""
-    return [program, "slice", *models.stl_pair(name), "--load", models.SETTINGS, "-o", output, "--quiet", "--threads", "2", *added]
+    return [program, "slice", *models.stl_pair(name), "--load", models.SETTINGS, "-o", output, "--quiet",
+            "--threads", "2", *added]
 
 
 def undisturbed():

@@ -80,8 +80,9 @@ def main():
     print("", medians_line, sep="\n")
     if options.write:
         text = "\n".join([HEADER, *(row(*result) for result in results.items()), "", medians_line])
-        notes = (f"Of three figures the first is with effort fast, the second with normal (the default), the third with best; wall and "
-                 f"CPU times are medians of {options.rounds} rounds. Machine: {os.cpu_count()} cores, {platform.machine()}.\n\n")
+        notes = (f"Of three figures the first is with effort fast, the second with normal (the default), the third with best; "
+                 f"wall and CPU times are medians of {options.rounds} rounds. Machine: {os.cpu_count()} cores, "
+                 f"{platform.machine()}.\n\n")
         replace_between_markers(models.ROOT / "docs" / "benchmarks.md", "scripts/bench efforts --write", notes + text)
     found = failures(results)
     print(*found, "all bars hold" if not found else f"{len(found)} bars fail", sep="\n")
