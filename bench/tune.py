@@ -28,6 +28,13 @@ def defaults(program):
     return {name: float(value) for name, value in re.findall(r"^(weight_\w+) = (\S+)", shown, re.M)}
 
 
+def refused(program, option, value):
+    """Why the program does not take the value; empty where it does."""
+    done = subprocess.run([program, "slice", "absent.stl", "-o", FOLDER / "none.gcode", "--set", f"{option}={value:g}"],
+                          stderr=subprocess.PIPE, text=True)
+    return done.stderr.strip() if "--set" in done.stderr else ""
+
+
 def wanted(options, weights):
     """{option: values}, from the command line: NAME, NAME=VALUE,VALUE..., or all weights."""
     asked = {}
@@ -39,7 +46,10 @@ def wanted(options, weights):
             own = [float(value) for value in (values if equals else options.values or "").split(",") if value]
         except ValueError:
             sys.exit(f"scripts/bench tune: '{values or options.values}' are not numbers, separated by commas")
-        own = own or [factor * weights[name] for factor in FACTORS]
+        for why in filter(None, (refused(options.program, name, value) for value in own)):
+            sys.exit(f"scripts/bench tune: {why}")
+        others = [factor * weights[name] for factor in FACTORS]
+        own = own or [value for value in others if not refused(options.program, name, value)]
         asked[name] = sorted({*own, weights[name]})
     return asked
 
