@@ -29,9 +29,10 @@ def prusa_command(name, output):
             models.amf(name)]
 
 
-def our_command(program, name, output, protect):
+def our_command(program, name, output, *added):
+    """On two threads; PrusaSlicer takes as many as the machine has."""
     return [program, "slice", *models.stl_pair(name), "--load", models.SETTINGS, "-o", output, "--quiet",
-            "--protect", protect]
+            "--threads", "2", *added]
 
 
 def undisturbed():
@@ -71,8 +72,8 @@ def measure(name, program, rounds, ours_only):
         if not (ours_only and kept.exists()):
             prusa_runs.append(timed(prusa_command(name, prusa_gcode)))
         if program:
-            our_runs.append(timed(our_command(program, name, our_gcode, "none")))
-            full_runs.append(timed(our_command(program, name, full_gcode, "full")))
+            our_runs.append(timed(our_command(program, name, our_gcode, "--protect", "none")))
+            full_runs.append(timed(our_command(program, name, full_gcode, "--protect", "full")))
     if prusa_runs:
         laid = [[tool, kind, mm3] for (tool, kind), mm3 in plastic(prusa_gcode).items()]
         kept.write_text(json.dumps(medians(prusa_runs) | {"plastic": laid}))
@@ -173,6 +174,7 @@ def main():
     parser.add_argument("--program", type=Path, help="our program (default: the release build, made first)")
     parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
     options = parser.parse_args()
+    models.require(options.models, models.NAMES, "scripts/bench")
     if not models.SETTINGS.exists():
         sys.exit(f"scripts/bench: {models.SETTINGS} is absent; the models and settings are looked for there, "
                  "or in the folder that CLEANCOLOR_SHARED names")

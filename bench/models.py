@@ -7,6 +7,7 @@ meshes as the two volumes of one AMF object, which name their extruders. What is
 import os
 import re
 import struct
+import sys
 import zipfile
 from pathlib import Path
 
@@ -26,6 +27,13 @@ PAIRS = {
 }
 BENCHY = "3dbenchy"
 NAMES = [*PAIRS, BENCHY]
+
+
+def require(names, known, script):
+    """Ends the script where one of the comma-separated names is not known."""
+    for name in names.split(","):
+        if name not in known:
+            sys.exit(f"{script}: there is no model '{name}'; there are {', '.join(known)}")
 
 
 def stl_pair(name):
