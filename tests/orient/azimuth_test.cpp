@@ -208,6 +208,27 @@ TEST(Azimuth, IsNoTurnWhereATurnBringsLittle) {
   EXPECT_GT(not_worth_it, 0) << "no seed shows the rule";
 }
 
+TEST(Azimuth, CandidatesAreDeepValleysAndNoTurn) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    AzimuthOptions options = options_for({{0, 0}, {8, 0}});
+    if (seed % 3 == 0) options.fits = [](int degrees) { return degrees > 200 && degrees < 320; };
+    const Azimuths found = azimuths(random_blobs(2, 2, seed), options);
+    const double all = std::ranges::max(found.exposure_s);
+    double least = INFINITY;
+    for (std::size_t a = 0; a < 360; ++a)
+      if (found.fits[a]) least = std::min(least, found.exposure_s[a]);
+    ASSERT_FALSE(found.candidates_deg.empty());
+    EXPECT_EQ(at_azimuth(found.exposure_s, found.candidates_deg.front()), least);
+    for (const int deg : found.candidates_deg) {
+      EXPECT_TRUE(found.fits[azimuth_slot(deg)]);
+      EXPECT_LE(at_azimuth(found.exposure_s, deg), (deg == 0 ? 3 : 1.5) * least + 0.01 * all);
+    }
+    const bool has_none = std::ranges::find(found.candidates_deg, 0) == found.candidates_deg.end();
+    EXPECT_EQ(has_none, !found.fits[0] || found.exposure_s[0] > 3 * least + 0.01 * all);
+  }
+}
+
 TEST(Azimuth, IsOneThatHasRoom) {
   const Slices bar = drawn_slices({rectangle({0, 0}, {60, 10}), far_dot}, 5);
   AzimuthOptions options = options_for({{0, 0}, {20, 0}});

@@ -167,7 +167,8 @@ TEST(Offsets, PositionInTheFileIsModelMinusOffsetWhereTheSlicerSubtracts) {
 /// The loops of one layer in printing order, as in loops_of_layer.
 std::vector<int> loops_of(const Mesh& mesh, int perimeters) {
   const TestFolder folder;
-  const Config config = config_of({.printer = "generic", .set = {"perimeters=" + std::to_string(perimeters), "join_perimeters=0"}});
+  const Config config =
+      config_of({.printer = "generic", .set = {"perimeters=" + std::to_string(perimeters), "join_perimeters=0"}});
   return loops_of_layer(replayed(sliced(folder, {mesh}, config).text, config), 4);
 }
 
