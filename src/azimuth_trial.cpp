@@ -48,8 +48,8 @@ class Trial {
         use_(use),
         config_(trial_config(config)),
         threads_(options.threads),
-        rampart_(slices, use, config_, options.threads),
         layers_(sample(int(slices.slabs.size()), options.layers)),
+        rampart_(slices, use, config_, options.threads, layers_),
         paths_(layers_.size()) {
     std::vector<double> height_mm;
     for (const Slab& slab : slices.slabs) height_mm.push_back(slab.height_mm);
@@ -97,8 +97,8 @@ class Trial {
   const Use& use_;
   Config config_;
   int threads_;
-  PrintedRampart rampart_;
   std::vector<int> layers_;
+  PrintedRampart rampart_;
   std::vector<std::vector<Path>> paths_;
   std::optional<SurfaceVisibility> visibility_;
   std::vector<Vec2> offset_mm_;

@@ -86,24 +86,48 @@ RampartShape rampart_shape(const Config& config, const Use& use) {
   return config.idle_nozzle == IdleNozzle::same_height ? RampartShape::conforming : RampartShape::off;
 }
 
+RampartOptions PrintedRampart::options(int threads) const {
+  return {.conforming = rampart_shape(config_, use_) == RampartShape::conforming,
+          .walls = int(wall_count(config_, use_)),
+          .distance_mm = config_.ooze_shield_dist_mm,
+          .gap_mm = config_.rampart_gap_mm,
+          .line_width_mm = wall_road(config_, use_.extruders.front(), 1, slices_.slabs.back()).width_mm,
+          .max_overhang_deg = config_.rampart_max_overhang_deg,
+          .threads = threads};
+}
+
 PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Config& config, int threads)
     : slices_(slices), use_(use), config_(config) {
-  const RampartShape shape = rampart_shape(config, use);
-  if (shape == RampartShape::off) return;
+  if (rampart_shape(config, use) == RampartShape::off) return;
   const auto layers = std::size_t(protected_layers(slices, use, config));
   std::vector<double> height_mm;
   for (std::size_t k = 0; k < layers; ++k) height_mm.push_back(slices.slabs[k].height_mm);
-  const Slab& usual = slices.slabs.back();
-  rampart_ = rampart(std::span(slices.outlines).first(layers), height_mm,
-                     {.conforming = shape == RampartShape::conforming,
-                      .walls = int(wall_count(config, use)),
-                      .distance_mm = config.ooze_shield_dist_mm,
-                      .gap_mm = config.rampart_gap_mm,
-                      .line_width_mm = wall_road(config, use.extruders.front(), 1, usual).width_mm,
-                      .max_overhang_deg = config.rampart_max_overhang_deg,
-                      .threads = threads});
+  rampart_ = rampart(std::span(slices.outlines).first(layers), height_mm, options(threads));
   split_ = is_split(config, use);
   require_reach();
+}
+
+PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Config& config, int threads,
+                               std::span<const int> some_layers)
+    : slices_(slices), use_(use), config_(config) {
+  if (rampart_shape(config, use) == RampartShape::off) return;
+  RampartOptions alone = options(threads);
+  alone.conforming = true;
+  alone.stands = false;
+  const int layers = protected_layers(slices, use, config);
+  std::vector<Polygons> outlines;
+  std::vector<double> height_mm;
+  std::vector<std::size_t> of_layer;
+  for (const int k : some_layers) {
+    if (k >= layers) continue;
+    of_layer.push_back(std::size_t(k));
+    outlines.push_back(slices.outlines[of_layer.back()]);
+    height_mm.push_back(slices.slabs[of_layer.back()].height_mm);
+  }
+  Rampart found = rampart(outlines, height_mm, alone);
+  rampart_.walls.resize(std::size_t(layers));
+  for (std::size_t i = 0; i < of_layer.size(); ++i) rampart_.walls[of_layer[i]] = std::move(found.walls[i]);
+  split_ = is_split(config, use);
 }
 
 void PrintedRampart::require_reach() const {

@@ -34,6 +34,9 @@ class PrintedRampart {
  public:
   /// Throws Error where a wall would leave the area that all needed nozzles reach.
   PrintedRampart(const Slices& slices, const Use& use, const Config& config, int threads);
+  /// Of some layers alone, each with the walls that it would have without the others, wherever nozzles reach.
+  PrintedRampart(const Slices& slices, const Use& use, const Config& config, int threads,
+                 std::span<const int> some_layers);
 
   bool empty() const { return rampart_.walls.empty(); }
 
@@ -45,6 +48,7 @@ class PrintedRampart {
   RampartSite site(int layer) const;
 
  private:
+  RampartOptions options(int threads) const;
   void require_reach() const;
 
   const Slices& slices_;

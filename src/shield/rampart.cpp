@@ -97,7 +97,7 @@ Rampart rampart(std::span<const Polygons> outlines, std::span<const double> heig
                [&](int k) { regions[std::size_t(k)] = around(outlines[std::size_t(k)], options.distance_mm); });
   for (int wall = 0; wall < options.walls; ++wall) {
     if (options.conforming) {
-      make_stand(regions, step_mm);
+      if (options.stands) make_stand(regions, step_mm);
     } else if (wall == 0) {
       Polygons all;
       for (const Polygons& region : regions) all.insert(all.end(), region.begin(), region.end());

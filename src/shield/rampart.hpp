@@ -26,6 +26,7 @@ namespace cleancolor {
 
 struct RampartOptions {
   bool conforming = true;
+  bool stands = true;            // of conforming walls; false: each layer for itself, as if there were no others
   int walls = 2;                 // one for each extruder
   double distance_mm = 2;        // from the part to the centre line of wall 0
   double gap_mm = 4;             // from wall to wall, centre lines

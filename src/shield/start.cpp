@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 namespace cleancolor {
 namespace {
@@ -43,6 +44,27 @@ Box<Vec2> box_of(std::span<const Vec2> points) {
   return box;
 }
 
+/// Segments by rows of Y, so that only those nearby need be looked at.
+class SegmentRows {
+ public:
+  void add(Vec2 a, Vec2 b) {
+    for (int row = row_of(std::min(a.y, b.y)); row <= row_of(std::max(a.y, b.y)); ++row) rows_[row].emplace_back(a, b);
+  }
+  bool cross(Vec2 a, Vec2 b) const {
+    for (int row = row_of(std::min(a.y, b.y)); row <= row_of(std::max(a.y, b.y)); ++row) {
+      const auto found = rows_.find(row);
+      if (found == rows_.end()) continue;
+      for (const auto& [c, d] : found->second)
+        if (cross_each_other(a, b, c, d)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static int row_of(double y) { return int(std::floor(y / spacing_mm)); }
+  std::unordered_map<int, std::vector<std::pair<Vec2, Vec2>>> rows_;
+};
+
 /// What one idle nozzle meets on its way beside the wall.
 struct Meeting {
   std::vector<char> over_part;                // by step: comes over the part
@@ -53,10 +75,10 @@ struct Meeting {
 Meeting meeting(const std::vector<Place>& places, std::size_t steps, Vec2 idle_mm, const WallScene& scene) {
   Meeting m{std::vector<char>(steps), std::vector<char>(steps), std::vector<std::vector<std::size_t>>(steps)};
   const Box<Vec2> part = bounds_mm(scene.part);
-  std::vector<std::pair<Vec2, Vec2>> standing;
+  SegmentRows standing;
   for (const Path& wall : scene.standing)
     for (std::size_t i = 0; i < wall.segments(); ++i)
-      standing.emplace_back(wall.points[i], wall.points[(i + 1) % wall.points.size()]);
+      standing.add(wall.points[i], wall.points[(i + 1) % wall.points.size()]);
   std::vector<Vec2> at;
   for (const Place& p : places) at.push_back(p.at_mm);
   const Box<Vec2> own = box_of(at);
@@ -67,7 +89,7 @@ Meeting meeting(const std::vector<Place>& places, std::size_t steps, Vec2 idle_m
   for (std::size_t s = 0; s < steps; ++s) {
     const Vec2 a = at[s] + idle_mm, b = at[(s + 1) % at.size()] + idle_mm, middle = lerp(a, b, 0.5);
     m.over_part[s] = in(part, middle) && contains(scene.part, to_nm(middle));
-    for (const auto& [c, d] : standing) m.wiped[s] = m.wiped[s] || cross_each_other(a, b, c, d);
+    m.wiped[s] = standing.cross(a, b);
     if (!in(own, middle)) continue;
     for (std::size_t t = 0; t < steps; ++t)
       if (std::abs(at[t].x - middle.x) < 2 * spacing_mm && std::abs(at[t].y - middle.y) < 2 * spacing_mm &&
