@@ -338,12 +338,8 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
     for (const Vec2 c : visits[k].travel_mm)
       paths[k].travel.push_back(c + config_->extruders[std::size_t(paths[k].extruder)].nozzle_offset_mm);
   }
-  if (config_->refill_mode != RefillMode::off && layer_.index > 0) {
-    const OrderWeights weights = order_weights(*config_, paths.front().extruder);
-    const double mm_of_mm3 = config_->travel_speed_mm_s / weights.s_mm3;
-    paths = with_refills(std::move(paths), run.roads, run.cost, {},
-                         {.hole_mm = weights.hole_weight * mm_of_mm3, .hop = weights.hop});
-  }
+  if (config_->refill_mode != RefillMode::off && layer_.index >= config_->refill_skipped_layers)
+    paths = with_refills(std::move(paths), run.roads, run.cost, {}, refill_options(*config_, paths.front().extruder));
   if (!first_) first_ = std::make_unique<Run>(std::move(run));
   return paths;
 }
