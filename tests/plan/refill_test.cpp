@@ -197,7 +197,7 @@ TEST(FixedRefill, IsPushedOnlyBesideStandingWallsAndOutsideThePart) {
     // By way of two corners of the wall, or straight.
     for (Path& path : paths)
       if (random() % 2 == 0) path.travel = {wall.points[random() % 4], wall.points[random() % 4]};
-    for (const Path& path : with_refills(paths, roads, cost, {}, {.mode = RefillMode::fixed})) {
+    for (const Path& path : with_refills(paths, roads, cost, {}, {.mode = RefillMode::fixed, .hop = {}})) {
       if (path.road().role != Role::refill) continue;
       ++passes;
       EXPECT_LE(path.road().area_mm2, 0.16 + 1e-9);
