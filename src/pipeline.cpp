@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "azimuth_trial.hpp"
@@ -14,6 +16,7 @@
 #include "model/check.hpp"
 #include "model/reach.hpp"
 #include "model/read.hpp"
+#include "model/view.hpp"
 #include "picture.hpp"
 #include "plan/planner.hpp"
 #include "protection.hpp"
@@ -133,10 +136,32 @@ Azimuths azimuths_of(const SliceRequest& request, std::span<const Part> parts, c
   return result;
 }
 
+/// From where the print is looked at.
+View view(const Config& config, double turned_deg) {
+  const auto direction_deg = view_direction_deg(config.view_direction);
+  if (!direction_deg) return {};
+  const double angle = (*direction_deg + turned_deg) * std::numbers::pi / 180;
+  return {.from = {std::cos(angle), std::sin(angle)}, .weight = config.view_weight};
+}
+
+/// What light does not pass in each layer; empty where all filaments are opaque.
+std::vector<Polygons> opaque_regions(const Slices& slices, const Config& config) {
+  const auto is_opaque = [](const Extruder& e) { return e.filament_translucency_mm <= 0; };
+  if (std::ranges::all_of(config.extruders, is_opaque)) return {};
+  std::vector<Polygons> result;
+  for (const std::vector<Polygons>& regions : slices.regions) {
+    Polygons& opaque = result.emplace_back();
+    for (std::size_t e = 0; e < regions.size(); ++e)
+      if (is_opaque(config.extruders[e])) opaque.insert(opaque.end(), regions[e].begin(), regions[e].end());
+  }
+  return result;
+}
+
 /// The layers of one print on their way from regions to G-code; each stage owns its slot of each layer.
 class Print {
  public:
-  Print(const SliceRequest& request, const Slices& slices, const Use& use, PrintInfo info, Sink sink,
+  /// turned_deg: by so much the parts stand turned from what is in their files.
+  Print(const SliceRequest& request, const Slices& slices, const Use& use, PrintInfo info, double turned_deg, Sink sink,
         const Progress& progress)
       : config_(request.config),
         request_(request),
@@ -164,8 +189,13 @@ class Print {
     std::vector<double> height_mm;
     for (const Slab& slab : slices.slabs) height_mm.push_back(slab.height_mm);
     for (int e = 0; e < int(config_.extruders.size()); ++e) reach_.push_back(reach(config_, e));
-    visibility_.emplace(slices.outlines, height_mm, SurfaceVisibilityOptions{.threads = thread_count(request.threads)},
-                        progress);
+    for (const Extruder& e : config_.extruders) translucency_mm_.push_back(e.filament_translucency_mm);
+    const std::vector<Polygons> opaque = opaque_regions(slices, config_);
+    visibility_.emplace(
+        slices.outlines, height_mm,
+        SurfaceVisibilityOptions{
+            .threads = thread_count(request.threads), .view = view(config_, turned_deg), .opaque = opaque},
+        progress);
     first_ = first_extruders(printing_by_layer(slices), use.extruders.front());
   }
 
@@ -221,6 +251,7 @@ class Print {
 
   PlanScene scene(int k) const {
     PlanScene scene = plan_scene(slices_, use_, config_, rampart_, k);
+    scene.part.translucency_mm = translucency_mm_;
     scene.reach = reach_;
     return scene;
   }
@@ -312,6 +343,7 @@ class Print {
   std::vector<std::vector<Path>> bed_;
   std::optional<SurfaceVisibility> visibility_;  // where the planner is not plain
   std::vector<Polygons> reach_;                  // of each extruder
+  std::vector<double> translucency_mm_;          // of each extruder's filament
   std::vector<int> first_;                       // the extruder that begins each layer
   Layer below_;                                  // the last path of the layer written last
   OrderState state_;
@@ -363,7 +395,8 @@ Summary slice(const SliceRequest& request, const Progress& progress) {
     if (!info.last_layer[std::size_t(*part.extruder)]) throw too_thin(request, *part.extruder);
 
   OutputFile file(request.output);
-  Print print(request, layers, use, std::move(info), to_file(file), progress);
+  const double turned_deg = request.placement.rotate_deg + protection.azimuth_deg;
+  Print print(request, layers, use, std::move(info), turned_deg, to_file(file), progress);
   const PrintFigures figures = print.run(thread_count(request.threads));
   file.commit();
   if (preview) preview->commit();

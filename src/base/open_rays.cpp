@@ -167,10 +167,9 @@ struct SurfaceWord {
 };
 
 /// Open rays of all voxels of the surface, by every `stride`-th direction from `first` on.
-std::vector<Counters> open_rays(const Voxels& v, std::span<const SurfaceWord> surface, double reach_mm,
-                                std::size_t first, std::size_t stride, const Progress& progress) {
+std::vector<Counters> open_rays(const Voxels& v, std::span<const SurfaceWord> surface, std::span<const Direction> all,
+                                double reach_mm, std::size_t first, std::size_t stride, const Progress& progress) {
   std::vector<Counters> open(surface.size(), Counters{});
-  const std::vector<Direction> all = directions();
   Rays rays(v);
   for (std::size_t k = first; k < all.size(); k += stride) {
     if (progress.interrupted()) throw Error("interrupted");
@@ -229,7 +228,7 @@ OpenRays::Near OpenRays::near(Vec3 p) const {
   return near;
 }
 
-OpenRays::OpenRays(Voxels voxels, double reach_mm, int threads, const Progress& progress)
+OpenRays::OpenRays(Voxels voxels, double reach_mm, int threads, const Progress& progress, const View& view)
     : voxels_(std::move(voxels)), surface_(voxels_.solid.size()), first_(voxels_.solid.size()) {
   std::vector<SurfaceWord> found;
   std::uint32_t values = 0;
@@ -244,14 +243,26 @@ OpenRays::OpenRays(Voxels voxels, double reach_mm, int threads, const Progress& 
   // Each worker needs a string and counters of its own: few where these are large.
   const double worker_mb = double(voxels_.solid.size()) * 8e-6 + double(found.size() * sizeof(Counters)) * 1e-6;
   const int workers = std::clamp(int(60 / std::max(worker_mb, 1e-3)), 1, std::clamp(thread_count(threads), 1, 16));
-  std::vector<std::vector<Counters>> open{std::size_t(workers)};
-  parallel_for(workers, threads, [&](int i) {
-    open[std::size_t(i)] = open_rays(voxels_, found, reach_mm, std::size_t(i), std::size_t(workers), progress);
-  });
-  std::size_t value = 0;
-  for (std::size_t s = 0; s < found.size(); ++s)
-    for (std::uint64_t bits = found[s].bits; bits != 0; bits &= bits - 1, ++value)
-      for (const auto& part : open) open_[value] += std::uint8_t(counted(part[s], std::countr_zero(bits)));
+  const auto add = [&](std::span<const Direction> rays, double share) {
+    std::vector<std::vector<Counters>> open{std::size_t(workers)};
+    parallel_for(workers, threads, [&](int i) {
+      open[std::size_t(i)] = open_rays(voxels_, found, rays, reach_mm, std::size_t(i), std::size_t(workers), progress);
+    });
+    std::size_t value = 0;
+    for (std::size_t s = 0; s < found.size(); ++s)
+      for (std::uint64_t bits = found[s].bits; bits != 0; bits &= bits - 1, ++value) {
+        int sum = 0;
+        for (const auto& part : open) sum += counted(part[s], std::countr_zero(bits));
+        open_[value] += std::uint8_t(std::lround(share * sum));
+      }
+  };
+  std::vector<Direction> all = directions();
+  const auto leads_there = [&](const Direction& d) {
+    return view.weight <= 0 || dot(view.from, {double(d.x), double(d.y)}) > 0;
+  };
+  const auto away = std::stable_partition(all.begin(), all.end(), leads_there);
+  add({all.begin(), away}, 1);
+  if (away != all.end()) add({away, all.end()}, 1 - view.weight);
 }
 
 double OpenRays::at(Vec3 p_mm) const {

@@ -21,18 +21,26 @@
 
 namespace cleancolor {
 
+/// Somebody who looks at the part from far away, level with it.
+struct View {
+  Vec2 from;          // direction from the part to whoever looks
+  double weight = 0;  // rays that lead away from there count 1 - weight, the others 1; in [0, 1]
+};
+
 class OpenRays {
  public:
-  /// Same values for any number of threads.  Requires: voxels with reach_mm of air behind rows and planes.
-  /// Throws Error where progress is interrupted.
-  /// Cost: about 20 ms of CPU for 10^6 voxels; memory: up to 60 MB while it works.
-  OpenRays(Voxels voxels, double reach_mm, int threads, const Progress& progress = {});
+  /// view.weight 0: rays count the same in all directions. Same values for any number of threads.  Requires: voxels
+  /// with reach_mm of air behind rows and planes. Throws Error where progress is interrupted. Cost: about 20 ms of CPU
+  /// for 10^6 voxels; memory: up to 60 MB while it works.
+  OpenRays(Voxels voxels, double reach_mm, int threads, const Progress& progress = {}, const View& view = {});
 
   /// The mean over the surface within 1.75 voxels of the point; deep inside the part 0, far away from it 1.
   /// Cost: about 0.2 us.
   double at(Vec3 p_mm) const;
 
   const Voxels& voxels() const { return voxels_; }
+  /// Air that touches plastic, bit by bit as voxels().solid.
+  const BitWords& surface() const { return surface_; }
 
  private:
   struct Near;
@@ -42,7 +50,7 @@ class OpenRays {
   Voxels voxels_;
   BitWords surface_;                  // air that touches plastic
   std::vector<std::uint32_t> first_;  // by word: where its values begin
-  std::vector<std::uint8_t> open_;    // open rays of each voxel of the surface, in the order of their bits
+  std::vector<std::uint8_t> open_;  // open rays of each voxel of the surface, as they count, in the order of their bits
 };
 
 /// Voxels of an axis whose middle is at most `reach` (in voxels) from c.

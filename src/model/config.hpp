@@ -62,6 +62,7 @@ struct Extruder {
   double filament_cost_per_kg = 0;
   double extrusion_multiplier = 1;
   double filament_max_volumetric_speed_mm3_s = 0;  // 0: no limit
+  double filament_translucency_mm = 0;             // of depth that leave 1/e of the light; 0: opaque
   int temperature_c = 210;
   int first_layer_temperature_c = 215;
   int bed_temperature_c = 60;
@@ -190,9 +191,11 @@ struct Config {
   Effort effort = Effort::normal;
   PrintOrder print_order = PrintOrder::exposure;
   RefillMode refill_mode = RefillMode::off;
-  double refill_volume_mm3 = 2;   // of each pass, where refill_mode is fixed
-  double refill_speed_mm_s = 2;   // of the filament
-  int refill_skipped_layers = 3;  // the first ones
+  double refill_volume_mm3 = 2;         // of each pass, where refill_mode is fixed
+  double refill_speed_mm_s = 2;         // of the filament
+  int refill_skipped_layers = 3;        // the first ones
+  std::string view_direction = "none";  // or degrees, model/view.hpp
+  double view_weight = 0.5;             // how much less the far side counts
   // In mm of way, beside the 1 of each mm itself: a mm over ...
   double weight_crossing = 1000;  // visible foreign plastic
   double weight_foreign = 100;    // foreign plastic in full sight, in addition

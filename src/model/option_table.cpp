@@ -21,8 +21,8 @@ constexpr MachineAxis jerk_y{&C::machine_max_jerk_mm_s, &Vec3::y};
 constexpr MachineAxis jerk_z{&C::machine_max_jerk_mm_s, &Vec3::z};
 
 // Names and meanings are PrusaSlicer's; those it does not know are nozzle_offset, offsets_in, idle_nozzle, audit_only,
-// extruder_printable_area, heater_off_after_last_use, prime_line_length and those of the rampart
-// (ooze_shield_dist is Cura's).
+// extruder_printable_area, heater_off_after_last_use, filament_translucency, prime_line_length and those of the rampart
+// (ooze_shield_dist is Cura's) and the planner.
 // clang-format off
 constexpr Option table[] = {
   {"printer_model", printer, "Machine", &C::printer_model, "", 0, 0, "name of the machine; a label only"},
@@ -80,6 +80,7 @@ constexpr Option table[] = {
   {"filament_cost", material, "Filament", &E::filament_cost_per_kg, "money/kg", 0, 1e6, "for the cost in the summary"},
   {"extrusion_multiplier", material, "Filament", &E::extrusion_multiplier, "", 0.1, 3, "scales the amount of filament"},
   {"filament_max_volumetric_speed", material, "Filament", &E::filament_max_volumetric_speed_mm3_s, "mm3/s", 0, 1000, "most that this filament melts; 0: no limit"},
+  {"filament_translucency", material, "Filament", &E::filament_translucency_mm, "mm", 0, 20, "depth below the surface that lets 1/e of the light through: the planner then minds other colours inside as well; 0: opaque"},
 
   {"temperature", material, "Temperatures", &E::temperature_c, "C", 0, 500, "nozzle, from the second layer on"},
   {"first_layer_temperature", material, "Temperatures", &E::first_layer_temperature_c, "C", 0, 500, "nozzle, on the first layer"},
@@ -179,6 +180,8 @@ constexpr Option table[] = {
   {"refill_volume", print, "Planner", &C::refill_volume_mm3, "mm3", 0, 100, "of each pass where refill_mode is fixed"},
   {"refill_speed", print, "Planner", &C::refill_speed_mm_s, "mm/s of filament", 0.1, 50, "at which a refill pushes; the carriage is as fast as that asks, at most 120 mm/s"},
   {"refill_skipped_layers", print, "Planner", &C::refill_skipped_layers, "layers", 0, 1000, "at the bed, without refills"},
+  {"view_direction", print, "Planner", &C::view_direction, "", 0, 0, "from where the print is looked at: degrees counterclockwise from X, of the models as they are in their files, such as 270 for the front; none: from all around"},
+  {"view_weight", print, "Planner", &C::view_weight, "", 0, 1, "how much less what faces away from view_direction counts; 1: not at all"},
   {"weight_crossing", print, "Planner weights", &C::weight_crossing, "mm of way a mm", 0, 1e6, "hanging over visible plastic of another colour"},
   {"weight_foreign", print, "Planner weights", &C::weight_foreign, "mm of way a mm", 0, 1e6, "in addition, x visibility"},
   {"weight_own", print, "Planner weights", &C::weight_own, "mm of way a mm", 0, 1e6, "hanging over plastic of the own colour, x visibility"},

@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "model/options.hpp"
 #include "model/thumbnails.hpp"
+#include "model/view.hpp"
 
 namespace cleancolor {
 namespace {
@@ -141,6 +142,7 @@ void validate(const Config& config) {
   validate_widths(config);
   validate_materials(config);
   thumbnail_sizes(config.thumbnails);  // refuses what is none
+  view_direction_deg(config.view_direction);
 }
 
 }  // namespace cleancolor

@@ -73,16 +73,20 @@ void LayerMap::draw(const Path& wall, std::uint8_t index) {
 void LayerMap::see(const LayerScene& scene, const SurfaceVisibility& visibility, const std::vector<char>& covered) {
   const int block = std::max(1, int(std::lround(block_mm * per_mm_)));
   const int blocks = columns_ / block + 1;
-  std::vector<int> known(std::size_t(blocks), -1);
+  // Of each block: at its surface, and below that in the plastic of each extruder.
+  std::vector<int> known(std::size_t(blocks) * (1 + scene.translucency_mm.size()), -1);
   for (int y = 0; y < rows_; ++y) {
     if (y % block == 0) std::ranges::fill(known, -1);
     for (int x = 0; x < columns_; ++x) {
-      const std::size_t i = std::size_t(y) * std::size_t(columns_) + std::size_t(x);
-      if (cells_[i].extruder == air || covered[i] == 3) continue;
-      int& v = known[std::size_t(x / block)];
+      const std::size_t i = std::size_t(y) * std::size_t(columns_) + std::size_t(x), e = cells_[i].extruder;
+      if (e == air) continue;
+      const bool is_below = covered[i] == 3;
+      if (is_below && (e >= scene.translucency_mm.size() || scene.translucency_mm[e] <= 0)) continue;
+      int& v = known[std::size_t(x / block) + (is_below ? (1 + e) * std::size_t(blocks) : 0)];
       if (v < 0) {
-        const Vec2 p = origin_ + Vec2{x + 0.5, y + 0.5} * (1 / per_mm_);
-        v = int(std::lround(255 * visibility.at({p.x, p.y, scene.z_mm})));
+        const Vec2 at = origin_ + Vec2{x + 0.5, y + 0.5} * (1 / per_mm_);
+        const Vec3 p{at.x, at.y, scene.z_mm};
+        v = int(std::lround(255 * (is_below ? visibility.below(p, scene.translucency_mm[e]) : visibility.at(p))));
       }
       cells_[i].visibility = std::uint8_t(v);
     }

@@ -4,7 +4,8 @@
 //
 //   regions and outline of the layer, outline above, visibility  ->  cells
 //
-// Visible is what a nozzle can spoil for the eye: the outer walls, as wide as their road, and what no layer covers.
+// Visible is what a nozzle can spoil for the eye: the outer walls, as wide as their road, what no layer covers, and
+// below both what translucent plastic lets through.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +20,12 @@ namespace cleancolor {
 
 /// One layer of the part.
 struct LayerScene {
-  std::span<const Polygons> regions;  // of each extruder
-  const Polygons& outline;            // of all
-  const Polygons& above;              // the outline of the layer above; empty for the last
-  double z_mm = 0;                    // its top
-  double wall_width_mm = 0.4;         // of the outermost road
+  std::span<const Polygons> regions;             // of each extruder
+  const Polygons& outline;                       // of all
+  const Polygons& above;                         // the outline of the layer above; empty for the last
+  double z_mm = 0;                               // its top
+  double wall_width_mm = 0.4;                    // of the outermost road
+  std::span<const double> translucency_mm = {};  // of each extruder's plastic, 0: opaque; empty: all opaque
 };
 
 class LayerMap {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <span>
@@ -18,12 +19,22 @@ namespace cleancolor {
 struct PlannedLayer::Run {
   TravelCost cost;
   Roadmap roads;
+
+  /// Where no wall of a rampart says where the layer begins: what each start costs, and the first paths as they were
+  /// before they were begun, up to where the tours from all starts have become the planned one.
+  CostToGo to_go = {};
+  std::vector<Path> begin = {};
+  std::vector<std::uint32_t> entries = {};  // of `begin`, as planned
+
+  void keep_starts(std::span<const Path> paths, std::span<const Visit> visits, TourOptions options);
 };
 
 namespace {
 
 // Mm of way for each mm of an unwiped nozzle over the part: only where both ends expose it.
 constexpr double exposure_weight = 1e5;
+
+constexpr double start_slack_mm = 60;
 
 TravelWeights travel_weights(const Config& c) {
   return {.crossing = c.weight_crossing,
@@ -42,6 +53,44 @@ OrderWeights order_weights(const Config& c, int extruder) {
 int steps_a_path(Effort effort) {
   return effort == Effort::fast ? 8 : effort == Effort::normal ? 30 : 200;
 }
+
+/// Path k as it is walked; offset_mm: of its nozzle.
+Path walked(Path path, const Roadmap& roads, std::size_t k, const Visit& visit, Vec2 offset_mm) {
+  path = led_inside(joined(begun(std::move(path), roads, k, visit.entry)), roads.entries[k][visit.entry].lead_mm);
+  // The carriage is where nozzle 0 is; the path's own nozzle is beside it.
+  path.travel.clear();
+  for (const Vec2 c : visit.travel_mm) path.travel.push_back(c + offset_mm);
+  return path;
+}
+
+/// After how many paths the tours from all starts have become the planned one.
+std::size_t paths_until_same(const CostToGo& to_go, std::span<const Visit> visits) {
+  std::size_t most = 0;
+  for (std::uint32_t start = 0; start < to_go.cost.size(); ++start) {
+    if (!std::isfinite(to_go.cost[start])) continue;
+    std::uint32_t entry = start;
+    std::size_t k = 0;
+    for (; k < visits.size() && entry != visits[k].entry; ++k)
+      if (k < to_go.next.size()) entry = to_go.next[k][entry];
+    most = std::max(most, k);
+  }
+  return most;
+}
+
+}  // namespace
+
+void PlannedLayer::Run::keep_starts(std::span<const Path> paths, std::span<const Visit> visits, TourOptions options) {
+  const auto is_wall = [](const Path& path) { return path.road().role == Role::rampart; };
+  if (std::ranges::any_of(paths, is_wall) || roads.entries.front().size() < 2) return;
+  // A start far away may yet be the nearest to where the layer below ends.
+  options.slack_mm = start_slack_mm;
+  to_go = cost_to_go(roads, paths, cost, options);
+  const std::size_t count = std::min(paths.size(), paths_until_same(to_go, visits) + 1);
+  begin.assign(paths.begin(), paths.begin() + std::ptrdiff_t(count));
+  for (std::size_t k = 0; k < count; ++k) entries.push_back(visits[k].entry);
+}
+
+namespace {
 
 /// Open walls are walked from the end from which idle nozzles are wiped first.
 std::function<double(std::size_t, std::uint32_t)> wall_cost(std::span<const Path> paths, const TravelCost& cost,
@@ -323,39 +372,54 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
   const auto entry_cost = [&](std::size_t path, std::uint32_t entry) {
     return walls(path, entry) + reorder.entry_cost(path, entry);
   };
-  std::vector<Visit> better = tour(run.roads, paths, run.cost, {.from_mm = {}, .entry_cost = entry_cost});
+  TourOptions options{.from_mm = {}, .entry_cost = entry_cost};
+  std::vector<Visit> better = tour(run.roads, paths, run.cost, options);
   if (reorder.predicted_cost(better) <= plain_cost) {
     visits = std::move(better);
   } else {
     std::ranges::copy(plain, paths.begin());
     run.roads.entries = plain_entries;
+    options.entry_cost = walls;
   }
+  if (!first_) run.keep_starts(paths, visits, options);
   for (std::size_t k = 0; k < paths.size(); ++k) {
-    const Entry& entry = run.roads.entries[k][visits[k].entry];
-    paths[k] = led_inside(joined(begun(std::move(paths[k]), run.roads, k, visits[k].entry)), entry.lead_mm);
-    // The carriage is where nozzle 0 is; the path's own nozzle is beside it.
-    paths[k].travel.clear();
-    for (const Vec2 c : visits[k].travel_mm)
-      paths[k].travel.push_back(c + config_->extruders[std::size_t(paths[k].extruder)].nozzle_offset_mm);
+    const Vec2 offset = offset_mm(paths[k]);
+    paths[k] = walked(std::move(paths[k]), run.roads, k, visits[k], offset);
   }
-  if (config_->refill_mode != RefillMode::off && layer_.index > 0) {
-    const OrderWeights weights = order_weights(*config_, paths.front().extruder);
-    const double mm_of_mm3 = config_->travel_speed_mm_s / weights.s_mm3;
-    paths = with_refills(std::move(paths), run.roads, run.cost, {},
-                         {.hole_mm = weights.hole_weight * mm_of_mm3, .hop = weights.hop});
-  }
+  if (config_->refill_mode != RefillMode::off && layer_.index >= config_->refill_skipped_layers)
+    paths = with_refills(std::move(paths), run.roads, run.cost, {}, refill_options(*config_, paths.front().extruder));
   if (!first_) first_ = std::make_unique<Run>(std::move(run));
   return paths;
 }
 
 void PlannedLayer::arrive_from(const Layer& below) {
   if (!first_ || below.paths.empty()) return;
-  const auto offset = [&](const Path& path) { return config_->extruders[std::size_t(path.extruder)].nozzle_offset_mm; };
+  const Vec2 from = below.paths.back().end() - offset_mm(below.paths.back());
+  if (!first_->begin.empty())
+    begin_at(cheapest_start(first_->roads, first_->begin.front(), first_->cost, first_->to_go, from));
   Path& path = layer_.paths.front();
-  const Vec2 from = below.paths.back().end() - offset(below.paths.back());
-  const Vec2 to = path.start() - offset(path);
+  const Vec2 to = path.start() - offset_mm(path);
   path.travel = way_between(first_->roads, first_->cost, path.extruder, from, to).between_mm;
-  for (Vec2& p : path.travel) p = p + offset(path);
+  for (Vec2& p : path.travel) p = p + offset_mm(path);
+}
+
+void PlannedLayer::begin_at(std::uint32_t entry) {
+  const Run& run = *first_;
+  std::uint32_t before = 0;
+  for (std::size_t k = 0; k < run.begin.size() && (k > 0 || entry != run.entries[k]); ++k) {
+    const Path& path = run.begin[k];
+    const Visit visit =
+        k == 0 ? Visit{.entry = entry, .travel_mm = {}} : visit_from(run.roads, run.begin, run.cost, k, before, entry);
+    layer_.paths[k] = walked(path, run.roads, k, visit, offset_mm(path));
+    // From here on it is the tour that was planned.
+    if (entry == run.entries[k]) return;
+    before = entry;
+    if (k < run.to_go.next.size()) entry = run.to_go.next[k][entry];
+  }
+}
+
+Vec2 PlannedLayer::offset_mm(const Path& path) const {
+  return config_->extruders[std::size_t(path.extruder)].nozzle_offset_mm;
 }
 
 LayerForecast PlannedLayer::forecast() const {

@@ -6,8 +6,8 @@
 //   paths of a layer, what lies where  ->  the same paths in order, begun at their starts, with Path::travel
 //
 // order (plan/plain_order.hpp), then the way through it on a roadmap of the layer (roadmap.hpp, tour.hpp). Layers are
-// planned on their own; the way from one to the next is found when both are known. Takes regions and paths, and never
-// asks where they come from.
+// planned on their own; the way from one to the next, and the start that suits it, are found when both are known. Takes
+// regions and paths, and never asks where they come from.
 //
 // Source: Hergel and Lefebvre, Clean color, section 6.
 #pragma once
@@ -42,7 +42,8 @@ class PlannedLayer {
 
   const Layer& layer() const { return layer_; }
 
-  /// The way to the first path from where the layer below ended.
+  /// The way to the first path from where the layer below ended; where that path can be begun anywhere, it and those
+  /// after it are begun anew where the way and all that follows cost least (plan/tour.hpp).
   void arrive_from(const Layer& below);
 
   /// What the layer as planned is predicted to spoil, the way to its first path aside.  Requires: not released; idle
@@ -54,6 +55,8 @@ class PlannedLayer {
 
  private:
   struct Run;
+  void begin_at(std::uint32_t entry);
+  Vec2 offset_mm(const Path& path) const;
   std::vector<Path> planned(std::vector<Path> paths, const std::vector<int>& nozzles, const PlanScene& scene);
 
   Layer layer_;

@@ -5,15 +5,16 @@
 #include <numbers>
 #include <optional>
 
+#include "plan/wall_room.hpp"
+
 namespace cleancolor {
 namespace {
 
-constexpr double farthest_mm = 15;      // of the wall from where the outer wall begins
-constexpr double shortest_mm = 1.5;     // pass
-constexpr double most_area_mm2 = 0.06;  // of plastic beside the wall's own
-constexpr double least_mm = 20;         // of way that a refill must be worth
-constexpr double fastest_mm_s = 120;
-constexpr double filament_mm_s = 2;  // at which plastic is pushed
+constexpr double farthest_mm = 15;       // of the wall from where the outer wall begins
+constexpr double shortest_mm = 1.5;      // pass
+constexpr double usual_area_mm2 = 0.06;  // by which the length of a pass is chosen
+constexpr double least_mm = 20;          // of way that a refill must be worth
+constexpr double least_mm3 = 0.005;      // that can be pushed
 
 struct OnWall {
   const Path* wall = nullptr;
@@ -53,39 +54,69 @@ std::vector<Vec2> along(const OnWall& place, double length_mm) {
 class Refills {
  public:
   Refills(const Roadmap& roads, const TravelCost& cost, const OozeModel& model, const RefillOptions& options)
-      : roads_(roads), cost_(cost), model_(model), options_(options) {}
+      : roads_(roads), cost_(cost), model_(model), options_(options), room_(cost.map(), options.gap_mm) {}
 
-  /// A pass between two paths of one nozzle, and the second one's new travel; nothing where it is not worth it.
+  void stand(const Path& wall) {
+    room_.stand(wall);
+    walls_.push_back(&wall);
+  }
+
+  /// A pass between two paths, and the second one's new travel; nothing where there is none.
   struct Pass {
     Path refill;
     std::vector<Vec2> travel;
   };
-  std::optional<Pass> between(const Path& before, const Path& path, const std::vector<const Path*>& walls) const {
+  std::optional<Pass> between(const Path& before, const Path& path) {
+    if (walls_.empty() || is_auxiliary(path.road().role)) return std::nullopt;
+    return options_.mode == RefillMode::fixed ? fixed(before, path) : forecast(before, path);
+  }
+
+ private:
+  /// On the way as it is.
+  std::optional<Pass> fixed(const Path& before, const Path& path) {
+    if (!begins_outer_wall(path) && before.road().role != Role::rampart) return std::nullopt;
+    std::vector<Vec2> way{before.end() - offset_of(before.extruder) + offset_of(path.extruder)};
+    way.insert(way.end(), path.travel.begin(), path.travel.end());
+    way.push_back(path.start());
+    const auto room = room_.longest_pass(way, shortest_mm);
+    if (!room) return std::nullopt;
+    auto refill = laid(*room, options_.volume_mm3, path);
+    if (!refill) return std::nullopt;
+    refill->travel = room->before_mm;
+    return Pass{std::move(*refill), room->after_mm};
+  }
+
+  /// On a way by the nearest wall, where that is worth it.
+  std::optional<Pass> forecast(const Path& before, const Path& path) {
+    if (!begins_outer_wall(path) || path.extruder != before.extruder) return std::nullopt;
     const double visible = visibility_ahead(path, 0, path.start(), cost_.map());
     const double hop_mm = travel_mm(before.end(), path);
     const double worth = options_.hole_mm * visible;
     if (worth * missing_mm3(hop_mm) < least_mm) return std::nullopt;
-    const OnWall place = nearest(walls, path.start());
+    const OnWall place = nearest(walls_, path.start());
     if (place.wall == nullptr) return std::nullopt;
 
+    const double wanted_mm = std::max(shortest_mm, missing_mm3(hop_mm + farthest_mm) / usual_area_mm2);
+    const auto room = room_.longest_pass(along(place, wanted_mm), shortest_mm);
+    if (!room) return std::nullopt;
     const Vec2 offset = offset_of(path.extruder);
-    const PlannedWay there = way_between(roads_, cost_, path.extruder, before.end() - offset, place.at_mm - offset);
-    const double mm3 = missing_mm3(there.way_mm);
-    Pass pass{.refill = path, .travel = {}};
-    pass.refill.points = along(place, std::max(shortest_mm, mm3 / most_area_mm2));
-    if (pass.refill.points.size() < 2) return std::nullopt;
+    const PlannedWay there =
+        way_between(roads_, cost_, path.extruder, before.end() - offset, room->points_mm.front() - offset);
     const PlannedWay back =
-        way_between(roads_, cost_, path.extruder, pass.refill.points.back() - offset, path.start() - offset);
-    if (there.cost + back.cost + worth * missing_mm3(back.way_mm) + least_mm >
+        way_between(roads_, cost_, path.extruder, room->points_mm.back() - offset, path.start() - offset);
+    const double mm3 = missing_mm3(there.way_mm);
+    const double unfilled_mm3 = std::max(0., mm3 - room->most_area_mm2 * room->length_mm);
+    if (there.cost + back.cost + worth * (unfilled_mm3 + missing_mm3(back.way_mm)) + least_mm >
         straightened(before, path) + worth * missing_mm3(hop_mm))
       return std::nullopt;
-    finish(pass, mm3, *place.wall);
-    for (const Vec2 c : there.between_mm) pass.refill.travel.push_back(c + offset);
+    auto refill = laid(*room, mm3, path);
+    if (!refill) return std::nullopt;
+    for (const Vec2 c : there.between_mm) refill->travel.push_back(c + offset);
+    Pass pass{std::move(*refill), {}};
     for (const Vec2 c : back.between_mm) pass.travel.push_back(c + offset);
     return pass;
   }
 
- private:
   double missing_mm3(double way_mm) const {
     return model_.volume_mm3 * (1 - model_.left(options_.hop.seconds(way_mm)));
   }
@@ -102,46 +133,67 @@ class Refills {
     for (const Vec2 p : path.travel) sum += cost_.way(from - offset, p - offset), from = p;
     return sum + cost_.way(from - offset, path.start() - offset);
   }
-  /// Its road: slow enough for so much plastic.
-  void finish(Pass& pass, double mm3, const Path& wall) const {
-    Path& refill = pass.refill;
-    refill.closed = false;
-    refill.island = -1;
-    refill.depth = fill_depth;
-    refill.travel.clear();
-    Road road = wall.road();
-    const double length = length_mm(refill);
+  /// The pass as a path, with so much plastic, or what there is room for.
+  std::optional<Path> laid(const WallRoom::Pass& pass, double mm3, const Path& next) {
+    mm3 = std::min(mm3, pass.most_area_mm2 * pass.length_mm);
+    if (mm3 < least_mm3) return std::nullopt;
+    const auto& diameters = options_.filament_diameter_mm;
+    const Refill push{.volume_mm3 = mm3,
+                      .feed_mm_s = options_.feed_mm_s,
+                      .filament_diameter_mm = diameters[std::min(std::size_t(next.extruder), diameters.size() - 1)]};
+    Road road = pass.wall;
     road.role = Role::refill;
-    road.area_mm2 = mm3 / length;
+    road.area_mm2 = mm3 / pass.length_mm;
     road.width_mm = road.area_mm2 / road.height_mm;
-    constexpr double filament_mm = 1.75;
-    const double flow_mm3_s = filament_mm_s * std::numbers::pi / 4 * filament_mm * filament_mm;
-    road.speed_mm_s = std::min({fastest_mm_s, road.speed_mm_s, length * flow_mm3_s / mm3});
-    refill.stretches = {{0, road}};
+    road.speed_mm_s = refill_speed(pass.length_mm, push);
+    room_.lay(pass, road.area_mm2);
+    Path path;
+    path.extruder = next.extruder;
+    path.island = -1;
+    path.points = pass.points_mm;
+    path.stretches = {{0, road}};
+    return path;
   }
 
   const Roadmap& roads_;
   const TravelCost& cost_;
   const OozeModel& model_;
   const RefillOptions& options_;
+  WallRoom room_;
+  std::vector<const Path*> walls_;
 };
 
 }  // namespace
 
+double refill_speed(double length_mm, const Refill& refill) {
+  const double filament_mm2 = std::numbers::pi / 4 * refill.filament_diameter_mm * refill.filament_diameter_mm;
+  return std::min(refill.max_speed_mm_s, length_mm * refill.feed_mm_s * filament_mm2 / refill.volume_mm3);
+}
+
+RefillOptions refill_options(const Config& config, int extruder) {
+  RefillOptions options{.mode = config.refill_mode,
+                        .volume_mm3 = config.refill_volume_mm3,
+                        .feed_mm_s = config.refill_speed_mm_s,
+                        .filament_diameter_mm = {},
+                        .gap_mm = config.rampart_gap_mm,
+                        .hole_mm = config.weight_hole_volume * config.travel_speed_mm_s / config.weight_time,
+                        .hop = hop_time(config, extruder)};
+  for (const Extruder& e : config.extruders) options.filament_diameter_mm.push_back(e.filament_diameter_mm);
+  return options;
+}
+
 std::vector<Path> with_refills(std::vector<Path> paths, const Roadmap& roads, const TravelCost& cost,
                                const OozeModel& model, const RefillOptions& options) {
-  const Refills refills(roads, cost, model, options);
+  Refills refills(roads, cost, model, options);
   std::vector<Path> result;
-  std::vector<const Path*> walls;
   for (std::size_t k = 0; k < paths.size(); ++k) {
-    const bool may_lack = k > 0 && begins_outer_wall(paths[k]) && paths[k].extruder == paths[k - 1].extruder;
-    if (may_lack && !walls.empty())
-      if (auto pass = refills.between(paths[k - 1], paths[k], walls)) {
+    if (k > 0)
+      if (auto pass = refills.between(paths[k - 1], paths[k])) {
         result.push_back(std::move(pass->refill));
         paths[k].travel = std::move(pass->travel);
       }
     result.push_back(paths[k]);
-    if (paths[k].road().role == Role::rampart) walls.push_back(&paths[k]);
+    if (paths[k].road().role == Role::rampart) refills.stand(paths[k]);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #include "plan/tour.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <limits>
 #include <queue>
@@ -37,15 +38,23 @@ class Search {
   struct Seed {
     std::uint32_t node = 0;
     double cost = 0;
+    double mm_cost = 0;  // backwards: what each mm of way to it costs beside
   };
+  enum class Direction { forwards, backwards };
 
   /// Settles nodes from the seeds until all targets have their cost, or are more than `slack` dearer than the best,
   /// with what entering there costs. Predecessors of what was settled are appended to the log. Only places that the
   /// nozzle in use reaches, an index of the cost's nozzles, are passed.
-  void run(std::span<const Seed> seeds, std::span<const Seed> targets, int nozzle, double slack) {
+  ///
+  /// Backwards, ways lead from the targets to the seeds. What a touch and the begin of a wall cost for the mm before
+  /// them is then known at once, and charged mm by mm.
+  void run(std::span<const Seed> seeds, std::span<const Seed> targets, int nozzle, double slack,
+           Direction direction = Direction::forwards) {
+    const bool is_back = direction == Direction::backwards;
     std::ranges::fill(cost_, unreached);
     way_mm_.resize(cost_.size());
     dirty_mm_.resize(cost_.size());
+    if (is_back) later_.resize(cost_.size());
     std::ranges::fill(before_, nobody);
     std::ranges::fill(wanted_, 0);
     wanted_.resize(cost_.size());
@@ -57,7 +66,10 @@ class Search {
       extra_[t.node] = wanted_[t.node] == 0 ? t.cost : std::min(extra_[t.node], t.cost);
       wanted_[t.node] = 1;
     }
-    for (const Seed& s : seeds) offer(s.node, s.cost, 0, nobody);
+    for (const Seed& s : seeds) {
+      if (is_back && s.cost < cost_[s.node]) later_[s.node] = {s.mm_cost, 0};
+      offer(s.node, s.cost, 0, nobody);
+    }
     double end = unreached;
     while (!heap_.empty() && open > 0) {
       std::ranges::pop_heap(heap_, std::greater());
@@ -73,11 +85,19 @@ class Search {
       for (const Arc& arc : map_.arcs_of(node)) {
         const double length = distance(map_.nodes_mm[node], map_.nodes_mm[arc.to]);
         double c = cost + double(arc.cost);
-        if (arc.foreign > 0) c += travel_.smear(double(arc.foreign), dirty_mm_[node] + length);
+        Later later;
+        if (is_back) {
+          later = later_[node];
+          if (arc.foreign > 0) later.foreign = double(arc.foreign);
+          c += travel_.smear(later.foreign, length) + later.mm_cost * length;
+        } else if (arc.foreign > 0) {
+          c += travel_.smear(double(arc.foreign), dirty_mm_[node] + length);
+        }
         if (c >= cost_[arc.to]) continue;
         if ((map_.reached_by[arc.to] >> nozzle & 1) == 0 && wanted_[arc.to] == 0) continue;
         offer(arc.to, c, way_mm_[node] + length, node);
         dirty_mm_[arc.to] = arc.foreign > 0 ? 0 : dirty_mm_[node] + length;
+        if (is_back) later_[arc.to] = later;
       }
     }
     // What was reached but not settled is no shortest path yet.
@@ -90,18 +110,24 @@ class Search {
   double cost(std::uint32_t node) const { return cost_[node]; }
   double way_mm(std::uint32_t node) const { return way_mm_[node]; }
   const std::vector<std::uint32_t>& before() const { return before_; }
+  /// Where the way to the node begins.
+  std::uint32_t begin_of(std::uint32_t node) const {
+    while (before_[node] != nobody) node = before_[node];
+    return node;
+  }
 
  private:
   /// Where places within reach do not hang together.
   void go_straight(std::span<const Seed> seeds, std::span<const Seed> targets) {
     std::ranges::fill(before_, nobody);
     for (const Seed& s : seeds) cost_[s.node] = s.cost;
-    for (const auto& [t, extra] : targets)
+    for (const auto& [t, extra, mm_cost] : targets)
       for (const Seed& s : seeds) {
-        const double c = s.cost + travel_.way(map_.nodes_mm[s.node], map_.nodes_mm[t]);
+        const double length = distance(map_.nodes_mm[s.node], map_.nodes_mm[t]);
+        const double c = s.cost + travel_.way(map_.nodes_mm[s.node], map_.nodes_mm[t]) + s.mm_cost * length;
         if (c >= cost_[t]) continue;
         cost_[t] = c;
-        way_mm_[t] = distance(map_.nodes_mm[s.node], map_.nodes_mm[t]);
+        way_mm_[t] = length;
         before_[t] = s.node == t ? nobody : s.node;
       }
   }
@@ -115,16 +141,59 @@ class Search {
     std::ranges::push_heap(heap_, std::greater());
   }
 
+  /// What a way back is charged for each mm.
+  struct Later {
+    double mm_cost = 0;
+    double foreign = 0;  // visibility of the next touch
+  };
+
   const Roadmap& map_;
   const TravelCost& travel_;
   std::vector<double> cost_;
   std::vector<double> way_mm_;    // from the seed
   std::vector<double> dirty_mm_;  // since foreign plastic was touched
+  std::vector<Later> later_;      // backwards
   std::vector<std::uint32_t> before_;
   std::vector<double> extra_;  // of targets: what entering there costs
   std::vector<char> wanted_;
   std::vector<std::pair<double, std::uint32_t>> heap_;
 };
+
+/// What walking path k from this entry costs, beside the way there.
+double walk_cost(const Roadmap& map, std::span<const Path> paths, const TravelCost& cost, const TourOptions& options,
+                 std::size_t k, std::uint32_t i) {
+  const std::vector<Entry>& entries = map.entries[k];
+  double extra = cost.seam(entries[i].at_mm) + cost.seam(entries[exit_of(paths[k], i)].at_mm);
+  if (!paths[k].inner.empty() || entries[i].lead_mm > 0) extra *= joint_of_seam;
+  if (options.entry_cost) extra += options.entry_cost(k, i);
+  return extra;
+}
+
+double ahead_of(const Entry& entry, const Path& path) {
+  return begins_outer_wall(path) ? entry.ahead : 0;
+}
+
+/// TravelCost::hole of a way that is no short hop, as a sum: it then does not matter how a search gets on.
+struct HoleCost {
+  double stop = 0, mm = 0;
+};
+HoleCost hole_cost(const Entry& entry, const Path& path, const TravelCost& cost) {
+  const double ahead = ahead_of(entry, path);
+  const double mm = cost.hole(ahead, 3) - cost.hole(ahead, 2);
+  return {cost.hole(ahead, 2) - 2 * mm, mm};
+}
+
+/// Entries that can be reached, together where a mm of way to them costs about the same.
+std::vector<std::vector<std::uint32_t>> alike(const std::vector<Entry>& entries, const Path& path,
+                                              const std::vector<double>& to_go) {
+  constexpr std::array bands{0.05, 0.2, 0.4, 0.7, 2.};  // of visibility
+  std::vector<std::vector<std::uint32_t>> groups(bands.size());
+  for (std::uint32_t i = 0; i < entries.size(); ++i)
+    if (to_go[i] < unreached)
+      groups[std::size_t(std::ranges::upper_bound(bands, ahead_of(entries[i], path)) - bands.begin())].push_back(i);
+  std::erase_if(groups, [](const auto& group) { return group.empty(); });
+  return groups;
+}
 
 /// Leaves out places that a straight way costs no more without.
 void pull(std::vector<Vec2>& way, const TravelCost& cost) {
@@ -141,6 +210,34 @@ void pull(std::vector<Vec2>& way, const TravelCost& cost) {
     part[i] = straight;
     if (i > 0) --i;
   }
+}
+
+/// The way that a search has found to the node; returns where it begins.
+std::uint32_t add_way(Visit& visit, const Roadmap& map, const TravelCost& cost,
+                      const std::vector<std::uint32_t>& before, std::uint32_t node) {
+  std::vector<Vec2> way{map.nodes_mm[node]};
+  for (; before[node] != nobody; node = before[node]) way.push_back(map.nodes_mm[before[node]]);
+  std::ranges::reverse(way);
+  pull(way, cost);
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    visit.travel_cost += cost.way(way[i], way[i + 1]);
+    visit.travel_way_mm += distance(way[i], way[i + 1]);
+  }
+  visit.travel_mm.assign(way.begin() + 1, way.end() - (way.size() > 1 ? 1 : 0));
+  return node;
+}
+
+/// The nodes nearest to a place, and what the straight ways there cost.
+std::vector<Search::Seed> nearest_nodes(const Roadmap& map, const TravelCost& cost, int nozzle, Vec2 p) {
+  std::vector<std::pair<double, std::uint32_t>> all;
+  for (std::uint32_t i = 0; i < map.nodes_mm.size(); ++i)
+    if (map.reached_by[i] >> nozzle & 1) all.emplace_back(length_squared(map.nodes_mm[i] - p), i);
+  constexpr std::size_t tried = 24;
+  const std::size_t count = std::min(tried, all.size());
+  std::ranges::partial_sort(all, all.begin() + std::ptrdiff_t(count));
+  std::vector<Search::Seed> seeds;
+  for (std::size_t i = 0; i < count; ++i) seeds.push_back({all[i].second, cost.way(p, map.nodes_mm[all[i].second])});
+  return seeds;
 }
 
 }  // namespace
@@ -162,12 +259,8 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
           seeds.push_back({map.entries[k - 1][exit_of(paths[k - 1], i)].node, entered[k - 1][i]});
     }
     std::vector<Search::Seed> targets;
-    for (std::uint32_t i = 0; i < entries.size(); ++i) {
-      double extra = cost.seam(entries[i].at_mm) + cost.seam(entries[exit_of(paths[k], i)].at_mm);
-      if (!paths[k].inner.empty() || entries[i].lead_mm > 0) extra *= joint_of_seam;
-      if (options.entry_cost) extra += options.entry_cost(k, i);
-      targets.push_back({entries[i].node, extra});
-    }
+    for (std::uint32_t i = 0; i < entries.size(); ++i)
+      targets.push_back({entries[i].node, walk_cost(map, paths, cost, options, k, i)});
     if (k > 0) {
       search.run(seeds, targets, nozzle_of(cost, paths[k].extruder), options.slack_mm);
       before[k] = search.before();
@@ -190,16 +283,7 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
   for (std::size_t k = paths.size(); k-- > 0;) {
     visits[k].entry = entry;
     if (k == 0) break;
-    std::vector<Vec2> way{map.nodes_mm[map.entries[k][entry].node]};
-    std::uint32_t node = map.entries[k][entry].node;
-    for (; before[k][node] != nobody; node = before[k][node]) way.push_back(map.nodes_mm[before[k][node]]);
-    std::ranges::reverse(way);
-    pull(way, cost);
-    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-      visits[k].travel_cost += cost.way(way[i], way[i + 1]);
-      visits[k].travel_way_mm += distance(way[i], way[i + 1]);
-    }
-    visits[k].travel_mm.assign(way.begin() + 1, way.end() - (way.size() > 1 ? 1 : 0));
+    const std::uint32_t node = add_way(visits[k], map, cost, before[k], map.entries[k][entry].node);
     // Of the entries of the path before that are left here, the cheapest.
     std::uint32_t best = nobody;
     for (std::uint32_t i = 0; i < map.entries[k - 1].size(); ++i)
@@ -210,6 +294,129 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
     entry = best;
   }
   return visits;
+}
+
+namespace {
+
+/// One stage of the way back: from the entries of path k + 1, which cost to_go from there on, to where path k is left.
+class BackStage {
+ public:
+  BackStage(const Roadmap& map, const Path& later, std::size_t k, const TravelCost& cost,
+            const std::vector<double>& to_go)
+      : map_(map), later_(later), entries_(map.entries[k + 1]), cost_(cost), to_go_(to_go) {}
+
+  struct Result {
+    std::vector<double> cost;         // of each target
+    std::vector<std::uint16_t> next;  // its entry of path k + 1
+  };
+  Result run(Search& search, const std::vector<Search::Seed>& targets, double slack_mm) const {
+    Result result{std::vector<double>(targets.size(), unreached), std::vector<std::uint16_t>(targets.size())};
+    for (const std::vector<std::uint32_t>& starts : alike(entries_, later_, to_go_)) {
+      std::vector<Search::Seed> seeds;
+      for (const std::uint32_t e : starts) {
+        const HoleCost hole = hole_cost(entries_[e], later_, cost_);
+        seeds.push_back({entries_[e].node, to_go_[e] + hole.stop, hole.mm});
+      }
+      search.run(seeds, targets, nozzle_of(cost_, later_.extruder), slack_mm, Search::Direction::backwards);
+      for (std::size_t i = 0; i < targets.size(); ++i)
+        if (search.cost(targets[i].node) < result.cost[i]) {
+          result.cost[i] = search.cost(targets[i].node);
+          result.next[i] = cheapest_at(search.begin_of(targets[i].node), starts);
+        }
+    }
+    if (begins_outer_wall(later_)) hop(targets, result);
+    return result;
+  }
+
+ private:
+  /// Of the entries at one place.
+  std::uint16_t cheapest_at(std::uint32_t node, const std::vector<std::uint32_t>& starts) const {
+    double least = unreached;
+    std::uint16_t best = 0;
+    for (const std::uint32_t e : starts)
+      if (entries_[e].node == node && to_go_[e] < least) least = to_go_[e], best = std::uint16_t(e);
+    return best;
+  }
+  /// Short hops, which are no stop.
+  void hop(const std::vector<Search::Seed>& targets, Result& result) const {
+    constexpr double longest_mm = 2;
+    for (std::size_t i = 0; i < targets.size(); ++i)
+      for (std::uint32_t e = 0; e < entries_.size(); ++e) {
+        const Vec2 from = map_.nodes_mm[targets[i].node], to = map_.nodes_mm[entries_[e].node];
+        if (length_squared(to - from) > longest_mm * longest_mm || to_go_[e] == unreached) continue;
+        const double c =
+            to_go_[e] + cost_.way(from, to) + cost_.hole(ahead_of(entries_[e], later_), distance(from, to));
+        if (c < result.cost[i]) result.cost[i] = c, result.next[i] = std::uint16_t(e);
+      }
+  }
+
+  const Roadmap& map_;
+  const Path& later_;
+  const std::vector<Entry>& entries_;
+  const TravelCost& cost_;
+  const std::vector<double>& to_go_;
+};
+
+}  // namespace
+
+CostToGo cost_to_go(const Roadmap& map, std::span<const Path> paths, const TravelCost& cost,
+                    const TourOptions& options) {
+  CostToGo result;
+  if (paths.empty()) return result;
+  result.next.resize(paths.size() - 1);
+  Search search(map, cost);
+  for (std::size_t k = paths.size(); k-- > 0;) {
+    std::vector<Search::Seed> targets;  // where path k is left
+    for (std::uint32_t i = 0; i < map.entries[k].size(); ++i)
+      targets.push_back({map.entries[k][exit_of(paths[k], i)].node, walk_cost(map, paths, cost, options, k, i)});
+    std::vector<double> here(targets.size(), 0);
+    if (k + 1 < paths.size()) {
+      const BackStage stage(map, paths[k + 1], k, cost, result.cost);
+      BackStage::Result back = stage.run(search, targets, options.slack_mm);
+      here = std::move(back.cost);
+      result.next[k] = std::move(back.next);
+    }
+    for (std::size_t i = 0; i < here.size(); ++i) here[i] += targets[i].cost;
+    result.cost = std::move(here);
+  }
+  return result;
+}
+
+std::uint32_t cheapest_start(const Roadmap& map, const Path& first, const TravelCost& cost, const CostToGo& to_go,
+                             Vec2 from_mm) {
+  const std::vector<Entry>& entries = map.entries.front();
+  const int nozzle = nozzle_of(cost, first.extruder);
+  std::vector<Search::Seed> targets;
+  for (std::size_t i = 0; i < entries.size(); ++i) targets.push_back({entries[i].node, to_go.cost[i]});
+  Search search(map, cost);
+  search.run(nearest_nodes(map, cost, nozzle, from_mm), targets, nozzle, 0);
+  std::uint32_t best = 0;
+  double least = unreached;
+  for (std::uint32_t i = 0; i < entries.size(); ++i) {
+    const Vec2 at = map.nodes_mm[entries[i].node];
+    double way = cost.way(from_mm, at), way_mm = distance(from_mm, at);
+    if (search.cost(entries[i].node) < way) way = search.cost(entries[i].node), way_mm = search.way_mm(entries[i].node);
+    if (begins_outer_wall(first)) way += cost.hole(entries[i].ahead, way_mm);
+    if (way + to_go.cost[i] < least) least = way + to_go.cost[i], best = i;
+  }
+  return best;
+}
+
+Visit visit_from(const Roadmap& map, std::span<const Path> paths, const TravelCost& cost, std::size_t k,
+                 std::uint32_t entry_before, std::uint32_t entry) {
+  const Search::Seed seed{map.entries[k - 1][exit_of(paths[k - 1], entry_before)].node, 0};
+  const Search::Seed target{map.entries[k][entry].node, 0};
+  Search search(map, cost);
+  search.run(std::span(&seed, 1), std::span(&target, 1), nozzle_of(cost, paths[k].extruder), 0);
+  Visit visit{.entry = entry, .travel_mm = {}};
+  add_way(visit, map, cost, search.before(), target.node);
+  // A hop that is short when it is straight is no stop.
+  const double ahead = ahead_of(map.entries[k][entry], paths[k]);
+  const Vec2 from = map.nodes_mm[seed.node], to = map.nodes_mm[target.node];
+  const double straight = cost.way(from, to), straight_mm = distance(from, to);
+  if (straight + cost.hole(ahead, straight_mm) < visit.travel_cost + cost.hole(ahead, visit.travel_way_mm))
+    visit = {.entry = entry, .travel_mm = {}, .travel_cost = straight, .travel_way_mm = straight_mm};
+  return visit;
 }
 
 std::vector<WayLength> ways(const Roadmap& map, const TravelCost& cost, int extruder, std::uint32_t from,
@@ -231,18 +438,8 @@ std::vector<WayLength> ways(const Roadmap& map, const TravelCost& cost, int extr
 PlannedWay way_between(const Roadmap& map, const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm) {
   const int nozzle = nozzle_of(cost, extruder);
   // The nearest places are tried as the first and the last.
-  const auto nearest = [&](Vec2 p) {
-    std::vector<std::pair<double, std::uint32_t>> all;
-    for (std::uint32_t i = 0; i < map.nodes_mm.size(); ++i)
-      if (map.reached_by[i] >> nozzle & 1) all.emplace_back(length_squared(map.nodes_mm[i] - p), i);
-    constexpr std::size_t tried = 24;
-    const std::size_t count = std::min(tried, all.size());
-    std::ranges::partial_sort(all, all.begin() + std::ptrdiff_t(count));
-    std::vector<Search::Seed> seeds;
-    for (std::size_t i = 0; i < count; ++i) seeds.push_back({all[i].second, cost.way(p, map.nodes_mm[all[i].second])});
-    return seeds;
-  };
-  const std::vector<Search::Seed> seeds = nearest(from_mm), targets = nearest(to_mm);
+  const std::vector<Search::Seed> seeds = nearest_nodes(map, cost, nozzle, from_mm),
+                                  targets = nearest_nodes(map, cost, nozzle, to_mm);
   PlannedWay best{.between_mm = {}, .cost = cost.way(from_mm, to_mm)};
   if (!seeds.empty()) {
     Search search(map, cost);

@@ -79,6 +79,12 @@ TEST(Validate, RefusesToSubtractOffsetsThatSailfishAddsItself) {
   EXPECT_ERROR(validate(config), "offsets_in = slicer: with gcode_flavor = sailfish the firmware adds");
 }
 
+TEST(Validate, RefusesAViewThatIsNoDirection) {
+  for (const char* good : {"none", "0", "12.5", "360"}) EXPECT_NO_THROW(validate(with("view_direction", good)));
+  for (const char* bad : {"", "left", "-1", "361", "nan", "90 180"})
+    EXPECT_ERROR(validate(with("view_direction", bad)), "view_direction");
+}
+
 TEST(Validate, RefusesColoursAndThumbnailsThatAreNone) {
   EXPECT_NO_THROW(validate(with("filament_colour", "#00ff7F")));
   EXPECT_ERROR(validate(with("filament_colour", "red")), "filament_colour of extruder 1: 'red'");

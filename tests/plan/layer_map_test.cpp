@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "drawn_layer.hpp"
 
 namespace cleancolor {
@@ -55,6 +57,24 @@ TEST(LayerMap, KnowsTheWallsOfTheRampart) {
 TEST(LayerMap, OfNothingIsAir) {
   const DrawnLayer nothing({{}, {}});
   EXPECT_EQ(nothing.map().at({0, 0}).extruder, LayerMap::air);
+}
+
+TEST(LayerMap, ShowsWhatLiesInsideTranslucentPlastic) {
+  const DrawnLayer layer = two_halves();
+  const std::vector<Polygons> outlines(60, layer.outline), opaque(60, layer.regions[1]);
+  const SurfaceVisibility visibility(outlines, std::vector<double>(60, 1.), {.view = {}, .opaque = opaque});
+  const std::vector<double> translucency_mm{2, 0};
+  const LayerMap map({layer.regions, layer.outline, layer.above, 45, 0.4, translucency_mm}, {}, visibility);
+  const double wall = map.at({0.2, 5}).visibility;
+  for (const double d : {1., 2., 3.})
+    EXPECT_NEAR(map.at({d, 5}).visibility, wall * std::exp(-d / 2), 0.25 * wall * std::exp(-d / 2) + 2) << d;
+  EXPECT_EQ(map.at({15, 5}).visibility, 0) << "opaque";
+  // Where both colours touch, 5 mm from the walls in front and behind.
+  EXPECT_NEAR(map.at({9.9, 5}).visibility, wall * std::exp(-2.5), 5);
+  // All opaque: as without.
+  const LayerMap before = layer.map(), none({layer.regions, layer.outline, layer.above, 45, 0.4}, {}, visibility);
+  for (double x = -1; x < 21; x += 0.1)
+    for (double y = -1; y < 11; y += 0.1) EXPECT_EQ(none.at({x, y}).visibility, before.at({x, y}).visibility);
 }
 
 }  // namespace

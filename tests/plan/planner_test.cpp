@@ -6,6 +6,7 @@
 #include <map>
 
 #include "drawn_layer.hpp"
+#include "plan/ooze_forecast.hpp"
 #include "plan/precedence.hpp"
 
 namespace cleancolor {
@@ -114,6 +115,53 @@ TEST(PlannedLayer, TravelsInTheFrameOfTheNozzleThatPrintsNext) {
     carriage = path.end() - offset(path.extruder);
   }
   EXPECT_LT(planned_cost, straight_cost / 2) << "in any other frame it would cost about as much";
+}
+
+TEST(PlannedLayer, BeginsWhereItSuitsTheLayerBelow) {
+  // One colour, no rampart. Wherever the layer below ends: the same paths, and no worse than the start that was best
+  // without it.
+  std::mt19937 random(13);
+  int moved = 0;
+  double chosen_cost = 0, planned_cost = 0;
+  for (int t = 0; t < 8; ++t) {
+    SCOPED_TRACE(t);
+    DrawnLayer both({{}, {}});
+    Layer layer = random_layer(random, both);
+    for (Path& path : layer.paths) path.extruder = 0;
+    const DrawnLayer drawn({both.outline, {}});
+    Config config;
+    config.join_perimeters = false;
+    const LayerMap map = drawn.map();
+    const TravelCost cost(map, {{0, {0, 0}, {}}}, {});
+    const auto cost_of = [&](Vec2 from, const Path& path) {
+      double sum = cost.seam(path.start()) + cost.seam(path.end());
+      if (begins_outer_wall(path))
+        sum += cost.hole(visibility_ahead(path, 0, path.start(), map), travel_mm(from, path));
+      for (const Vec2 p : path.travel) sum += cost.way(from, p), from = p;
+      return sum + cost.way(from, path.start());
+    };
+    for (const Vec2 end : {Vec2{-5, -5}, {50, -5}, {50, 50}, {-5, 50}}) {
+      OrderState state;
+      PlannedLayer planned(layer, state, config, scene_of(drawn, {0}), drawn.visibility);
+      const std::vector<Path> before = planned.layer().paths;
+      Layer below = layer;
+      below.paths = {drawn_path(0, {{0, 0}, end}, false)};
+      planned.arrive_from(below);
+      const std::vector<Path>& after = planned.layer().paths;
+      ASSERT_EQ(after.size(), before.size());
+      double mm3_before = 0, mm3_after = 0;
+      for (std::size_t k = 0; k < after.size(); ++k) {
+        EXPECT_EQ(after[k].island, before[k].island);
+        mm3_before += volume_mm3(before[k]), mm3_after += volume_mm3(after[k]);
+        planned_cost += cost_of(k > 0 ? before[k - 1].end() : end, before[k]);
+        chosen_cost += cost_of(k > 0 ? after[k - 1].end() : end, after[k]);
+      }
+      EXPECT_NEAR(mm3_after, mm3_before, 0.02 * mm3_before);
+      moved += after.front().start() != before.front().start();
+    }
+  }
+  EXPECT_GT(moved, 5);
+  EXPECT_LT(chosen_cost, planned_cost);
 }
 
 TEST(PlannedLayer, OfNothingIsNothing) {

@@ -18,7 +18,7 @@ TravelCost cost_of(const LayerMap& map, Vec2 second, const TravelWeights& weight
   return TravelCost(map, {{0, {0, 0}, {}}, {1, second, {}}}, weights);
 }
 
-std::vector<double> all_costs_from(const Roadmap& map, std::uint32_t from) {
+std::vector<double> all_costs_from(const Roadmap& map, std::uint32_t from, double of_mm = 0) {
   std::vector<double> cost(map.nodes_mm.size(), std::numeric_limits<double>::infinity());
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -28,8 +28,10 @@ std::vector<double> all_costs_from(const Roadmap& map, std::uint32_t from) {
     const auto [c, node] = queue.top();
     queue.pop();
     if (c > cost[node]) continue;
-    for (const Arc& arc : map.arcs_of(node))
-      if (c + double(arc.cost) < cost[arc.to]) queue.emplace(cost[arc.to] = c + double(arc.cost), arc.to);
+    for (const Arc& arc : map.arcs_of(node)) {
+      const double there = c + double(arc.cost) + of_mm * distance(map.nodes_mm[node], map.nodes_mm[arc.to]);
+      if (there < cost[arc.to]) queue.emplace(cost[arc.to] = there, arc.to);
+    }
   }
   return cost;
 }
@@ -205,6 +207,109 @@ TEST(Tour, StaysWhereTheNozzleReaches) {
     EXPECT_EQ(highest > 29, limited);
     EXPECT_EQ(lowest < -1.5, !limited);
   }
+}
+
+/// What is left to do from each entry of the first path, by trying every pair of neighbours, more than 1 mm apart.
+std::vector<double> exhaustive_to_go(const Roadmap& roads, const std::vector<Path>& paths, const TravelCost& cost) {
+  std::vector<double> later;
+  for (std::size_t k = paths.size(); k-- > 0;) {
+    std::vector<double> here;
+    for (std::size_t e = 0; e < roads.entries[k].size(); ++e) {
+      const std::size_t exit = paths[k].closed ? e : 1 - e;
+      double least = later.empty() ? 0 : std::numeric_limits<double>::infinity();
+      if (!later.empty()) {
+        for (std::size_t i = 0; i < later.size(); ++i) {
+          const Entry& next = roads.entries[k + 1][i];
+          // A way costs so much a mm, and something once.
+          const double of_mm = cost.hole(next.ahead, 3) - cost.hole(next.ahead, 2);
+          const std::vector<double> way = all_costs_from(roads, roads.entries[k][exit].node, of_mm);
+          least = std::min(least, way[next.node] + cost.hole(next.ahead, 2) - 2 * of_mm + later[i]);
+        }
+      }
+      here.push_back(least + cost.seam(roads.entries[k][e].at_mm) + cost.seam(roads.entries[k][exit].at_mm));
+    }
+    later = here;
+  }
+  return later;
+}
+
+TEST(CostToGo, IsWhatExhaustiveSearchFindsFromEveryEntry) {
+  std::mt19937 random(4);
+  for (int t = 0; t < 12; ++t) {
+    SCOPED_TRACE(t);
+    std::vector<Path> paths;
+    const DrawnLayer layer = random_drawn_layer(random, 5, 30, paths);
+    paths.push_back(drawn_path(0, {{3, 3}, {9, 4}}, false));
+    paths.push_back(drawn_path(1, {{20, 3}, {12, 24}}, false));
+    if (t % 2 == 1) std::ranges::reverse(paths);
+    const LayerMap map = layer.map();
+    const TravelCost cost = cost_of(map, {12, 3}, {.smear = 0, .hole = 0});
+    const Roadmap roads = roadmap(paths, cost, {.leads = false});
+    const CostToGo to_go = cost_to_go(roads, paths, cost, {.from_mm = {}, .slack_mm = 1e9, .entry_cost = {}});
+    const std::vector<double> expected = exhaustive_to_go(roads, paths, cost);
+    ASSERT_EQ(to_go.cost.size(), expected.size());
+    for (std::size_t e = 0; e < expected.size(); ++e)
+      EXPECT_NEAR(to_go.cost[e], expected[e], 1e-6 * expected[e] + 1e-3) << e;
+    // The tour that it tells of costs no more.
+    for (std::uint32_t start = 0; start < expected.size(); ++start) {
+      double sum = 0;
+      std::uint32_t before = 0, entry = start;
+      for (std::size_t k = 0; k < paths.size(); ++k) {
+        const std::uint32_t exit = paths[k].closed ? entry : 1 - entry;
+        sum += cost.seam(roads.entries[k][entry].at_mm) + cost.seam(roads.entries[k][exit].at_mm);
+        if (k > 0) sum += visit_from(roads, paths, cost, k, before, entry).travel_cost;
+        before = entry;
+        if (k < to_go.next.size()) entry = to_go.next[k][entry];
+      }
+      EXPECT_LE(sum, expected[start] * (1 + 1e-6) + 1e-3) << start;
+    }
+  }
+}
+
+TEST(CostToGo, ChargesWhatIsMissingAfterAWayAsTheTourDoes) {
+  // One colour, so that what has oozed out matters for outer walls alone.
+  std::mt19937 random(5);
+  for (int t = 0; t < 12; ++t) {
+    SCOPED_TRACE(t);
+    std::vector<Path> paths;
+    DrawnLayer drawn = random_drawn_layer(random, 6, 30, paths);
+    const DrawnLayer layer({drawn.outline, {}});
+    for (Path& path : paths) path.extruder = 0;
+    const LayerMap map = layer.map();
+    const TravelCost cost(map, {{0, {0, 0}, {}}}, {});
+    const Roadmap roads = roadmap(paths, cost, {.leads = false});
+    const CostToGo to_go = cost_to_go(roads, paths, cost, {.from_mm = {}, .slack_mm = 1e9, .entry_cost = {}});
+    const std::vector<double> expected = exhaustive_to_go(roads, paths, cost);
+    for (std::size_t e = 0; e < expected.size(); ++e) {
+      EXPECT_GE(to_go.cost[e], expected[e] * (1 - 1e-6) - 1e-3) << e;
+      EXPECT_LE(to_go.cost[e], expected[e] * 1.01) << e;
+    }
+  }
+}
+
+TEST(CheapestStart, WeighsTheWayThereAgainstWhatFollows) {
+  std::mt19937 random(6);
+  int others = 0;
+  for (int t = 0; t < 12; ++t) {
+    SCOPED_TRACE(t);
+    std::vector<Path> paths;
+    const DrawnLayer layer = random_drawn_layer(random, 5, 30, paths);
+    paths.front().depth = 1;
+    const LayerMap map = layer.map();
+    const TravelCost cost = cost_of(map, {12, 3}, {.smear = 0, .hole = 0});
+    const Roadmap roads = roadmap(paths, cost, {.leads = false});
+    const CostToGo to_go = cost_to_go(roads, paths, cost, {.from_mm = {}, .slack_mm = 1e9, .entry_cost = {}});
+    for (const Vec2 corner : {Vec2{-8, -8}, {45, -8}, {45, 45}, {-8, 45}}) {
+      const std::uint32_t start = cheapest_start(roads, paths.front(), cost, to_go, corner);
+      const auto all = [&](std::uint32_t e) {
+        const Vec2 at = roads.nodes_mm[roads.entries.front()[e].node];
+        return to_go.cost[e] + way_between(roads, cost, paths.front().extruder, corner, at).cost;
+      };
+      for (std::uint32_t e = 0; e < to_go.cost.size(); ++e) EXPECT_LE(all(start), all(e) * 1.02 + 2) << e;
+      others += start != std::uint32_t(std::ranges::min_element(to_go.cost) - to_go.cost.begin());
+    }
+  }
+  EXPECT_GT(others, 3);
 }
 
 TEST(WayBetween, GoesAroundForeignPlastic) {
