@@ -24,6 +24,7 @@ namespace {
 
 // Mm of way for each mm of an unwiped nozzle over the part: only where both ends expose it.
 constexpr double exposure_weight = 1e5;
+constexpr double unlimited_mm = 1e12;
 
 TravelWeights travel_weights(const Config& c) {
   return {.crossing = c.weight_crossing,
@@ -33,6 +34,15 @@ TravelWeights travel_weights(const Config& c) {
           .seam = c.weight_seam,
           .smear = c.weight_smear,
           .hole = c.weight_hole};
+}
+
+TravelCost travel_cost(const LayerMap& map, std::vector<TravelCost::Nozzle> nozzles, const Config& config,
+                       const LayerScene& part) {
+  if (config.planner != Planner::paper) return TravelCost(map, std::move(nozzles), travel_weights(config));
+  PaperWeights weights;
+  if (const Box<Vec2> box = bounds_mm(part.outline); !box.empty())
+    weights.extent_mm = std::max({1., box.size().x, box.size().y});
+  return TravelCost::of_paper(map, std::move(nozzles), weights);
 }
 
 OrderWeights order_weights(const Config& c, int extruder) {
@@ -309,26 +319,31 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
     hanging.push_back({e, config_->extruders[std::size_t(e)].nozzle_offset_mm, std::move(reach)});
   }
   const bool hidden_seams = config_->seam_position == SeamPosition::hidden;
-  const bool joins = config_->join_perimeters && !config_->external_perimeters_first;
+  const bool is_paper = config_->planner == Planner::paper;
+  const bool joins = config_->join_perimeters && !config_->external_perimeters_first && !is_paper;
   if (joins) paths = with_inner_loops(std::move(paths), hidden_seams);
-  Run run{.cost = TravelCost(*map_, std::move(hanging), travel_weights(*config_)), .roads = {}};
+  Run run{.cost = travel_cost(*map_, std::move(hanging), *config_, scene.part), .roads = {}};
   run.roads = roadmap(paths, run.cost, {.fixed_seams = !hidden_seams, .leads = joins});
   const auto walls = wall_cost(paths, run.cost, scene.site.part);
-  Reorder reorder(paths, run.roads, run.cost, *config_, std::uint32_t(layer_.index));
-  std::vector<Visit> visits = tour(run.roads, paths, run.cost, {.from_mm = {}, .entry_cost = walls});
-  const double plain_cost = reorder.predicted_cost(visits);
-  const std::vector<Path> plain = paths;
-  const std::vector<std::vector<Entry>> plain_entries = run.roads.entries;
-  reorder.run(visits);
-  const auto entry_cost = [&](std::size_t path, std::uint32_t entry) {
-    return walls(path, entry) + reorder.entry_cost(path, entry);
-  };
-  std::vector<Visit> better = tour(run.roads, paths, run.cost, {.from_mm = {}, .entry_cost = entry_cost});
-  if (reorder.predicted_cost(better) <= plain_cost) {
-    visits = std::move(better);
-  } else {
-    std::ranges::copy(plain, paths.begin());
-    run.roads.entries = plain_entries;
+  TourOptions options{.from_mm = {}, .entry_cost = walls};
+  if (is_paper) options.slack_mm = unlimited_mm;
+  std::vector<Visit> visits = tour(run.roads, paths, run.cost, options);
+  if (config_->print_order == PrintOrder::exposure && !is_paper) {
+    Reorder reorder(paths, run.roads, run.cost, *config_, std::uint32_t(layer_.index));
+    const double plain_cost = reorder.predicted_cost(visits);
+    const std::vector<Path> plain = paths;
+    const std::vector<std::vector<Entry>> plain_entries = run.roads.entries;
+    reorder.run(visits);
+    const auto entry_cost = [&](std::size_t path, std::uint32_t entry) {
+      return walls(path, entry) + reorder.entry_cost(path, entry);
+    };
+    std::vector<Visit> better = tour(run.roads, paths, run.cost, {.from_mm = {}, .entry_cost = entry_cost});
+    if (reorder.predicted_cost(better) <= plain_cost) {
+      visits = std::move(better);
+    } else {
+      std::ranges::copy(plain, paths.begin());
+      run.roads.entries = plain_entries;
+    }
   }
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const Entry& entry = run.roads.entries[k][visits[k].entry];
