@@ -110,6 +110,17 @@ class TravelCost {
   }
   double way(Vec2 a, Vec2 b) const { return straight(a, b).cost; }
 
+  /// Whether a nozzle hangs over foreign plastic of a larger visibility anywhere on the straight way from a to b; what
+  /// its cost is summed over can leap over a corner.
+  bool crosses(Vec2 a, Vec2 b, double visibility) const {
+    const auto crosses = [&](const Nozzle& n) {
+      return map_.any_along(a + n.offset_mm, b + n.offset_mm, [&](LayerMap::Cell cell) {
+        return cell.extruder != n.extruder && cell.visibility > visibility * 255;
+      });
+    };
+    return std::ranges::any_of(nozzles_, crosses);
+  }
+
   /// Of touching foreign plastic of this visibility after a way of so many mm since the last touch: what has oozed out.
   double smear(double foreign, double way_mm) const { return weights_.smear * foreign * way_mm; }
 

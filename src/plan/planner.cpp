@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "plan/clear_way.hpp"
 #include "plan/exposure_order.hpp"
 #include "plan/joined_loops.hpp"
 #include "plan/refill.hpp"
@@ -18,6 +19,7 @@ namespace cleancolor {
 struct PlannedLayer::Run {
   TravelCost cost;
   Roadmap roads;
+  double longest_mm = 0;  // of ways around another colour
 };
 
 namespace {
@@ -25,6 +27,7 @@ namespace {
 // Mm of way for each mm of an unwiped nozzle over the part: only where both ends expose it.
 constexpr double exposure_weight = 1e5;
 constexpr double unlimited_mm = 1e12;
+constexpr double longest_in_extents = 4;  // of ways around another colour
 
 TravelWeights travel_weights(const Config& c) {
   return {.crossing = c.weight_crossing,
@@ -36,13 +39,16 @@ TravelWeights travel_weights(const Config& c) {
           .hole = c.weight_hole};
 }
 
+/// The largest of the part's layer.
+double extent_mm(const LayerScene& part) {
+  const Box<Vec2> box = bounds_mm(part.outline);
+  return box.empty() ? 1 : std::max({1., box.size().x, box.size().y});
+}
+
 TravelCost travel_cost(const LayerMap& map, std::vector<TravelCost::Nozzle> nozzles, const Config& config,
                        const LayerScene& part) {
   if (config.planner != Planner::paper) return TravelCost(map, std::move(nozzles), travel_weights(config));
-  PaperWeights weights;
-  if (const Box<Vec2> box = bounds_mm(part.outline); !box.empty())
-    weights.extent_mm = std::max({1., box.size().x, box.size().y});
-  return TravelCost::of_paper(map, std::move(nozzles), weights);
+  return TravelCost::of_paper(map, std::move(nozzles), {.extent_mm = extent_mm(part)});
 }
 
 OrderWeights order_weights(const Config& c, int extruder) {
@@ -309,7 +315,34 @@ class Reorder {
   std::vector<std::vector<double>> entry_cost_;
 };
 
+/// Where its nozzle stops: closed paths leave a gap (seam_gap_distance).
+Vec2 stop_mm(const Path& path, const Config& config) {
+  if (!path.closed) return path.end();
+  const double nozzle_mm = config.extruders[std::size_t(path.extruder)].nozzle_diameter_mm;
+  double rest = std::min(config.seam_gap_distance.of(nozzle_mm), length_mm(path) / 4);
+  Vec2 at = path.start();
+  for (std::size_t i = path.points.size(); i-- > 0 && rest > 0;) {
+    const double length = distance(at, path.points[i]);
+    at = length > rest ? lerp(at, path.points[i], rest / length) : path.points[i];
+    rest -= length;
+  }
+  return at;
+}
+
 }  // namespace
+
+void PlannedLayer::find_clear_ways(std::vector<Path>& paths, const Run& run) const {
+  const auto offset = [&](const Path& path) { return config_->extruders[std::size_t(path.extruder)].nozzle_offset_mm; };
+  for (std::size_t k = 1; k < paths.size(); ++k) {
+    Path& path = paths[k];
+    std::vector<Vec2> way{stop_mm(paths[k - 1], *config_) - offset(paths[k - 1])};
+    for (const Vec2 p : path.travel) way.push_back(p - offset(path));
+    way.push_back(path.start() - offset(path));
+    if (!crosses(run.cost, way)) continue;
+    path.travel = clearest_way_between(run.roads, run.cost, path.extruder, way.front(), way.back(), run.longest_mm);
+    for (Vec2& p : path.travel) p = p + offset(path);
+  }
+}
 
 std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vector<int>& nozzles,
                                         const PlanScene& scene) {
@@ -322,7 +355,9 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
   const bool is_paper = config_->planner == Planner::paper;
   const bool joins = config_->join_perimeters && !config_->external_perimeters_first && !is_paper;
   if (joins) paths = with_inner_loops(std::move(paths), hidden_seams);
-  Run run{.cost = travel_cost(*map_, std::move(hanging), *config_, scene.part), .roads = {}};
+  Run run{.cost = travel_cost(*map_, std::move(hanging), *config_, scene.part),
+          .roads = {},
+          .longest_mm = longest_in_extents * extent_mm(scene.part)};
   run.roads = roadmap(paths, run.cost, {.fixed_seams = !hidden_seams, .leads = joins});
   const auto walls = wall_cost(paths, run.cost, scene.site.part);
   TourOptions options{.from_mm = {}, .entry_cost = walls};
@@ -353,6 +388,7 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
     for (const Vec2 c : visits[k].travel_mm)
       paths[k].travel.push_back(c + config_->extruders[std::size_t(paths[k].extruder)].nozzle_offset_mm);
   }
+  if (!is_paper) find_clear_ways(paths, run);
   if (config_->refill_mode != RefillMode::off && layer_.index > 0) {
     const OrderWeights weights = order_weights(*config_, paths.front().extruder);
     const double mm_of_mm3 = config_->travel_speed_mm_s / weights.s_mm3;
@@ -367,9 +403,11 @@ void PlannedLayer::arrive_from(const Layer& below) {
   if (!first_ || below.paths.empty()) return;
   const auto offset = [&](const Path& path) { return config_->extruders[std::size_t(path.extruder)].nozzle_offset_mm; };
   Path& path = layer_.paths.front();
-  const Vec2 from = below.paths.back().end() - offset(below.paths.back());
+  const Vec2 from = stop_mm(below.paths.back(), *config_) - offset(below.paths.back());
   const Vec2 to = path.start() - offset(path);
-  path.travel = way_between(first_->roads, first_->cost, path.extruder, from, to).between_mm;
+  path.travel = config_->planner == Planner::paper
+                    ? way_between(first_->roads, first_->cost, path.extruder, from, to).between_mm
+                    : clearest_way_between(first_->roads, first_->cost, path.extruder, from, to, first_->longest_mm);
   for (Vec2& p : path.travel) p = p + offset(path);
 }
 
