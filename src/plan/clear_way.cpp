@@ -31,10 +31,13 @@ class Grid {
     from_ = below * columns_ + left;
     const Vec2 to = (to_mm - low_) * (1 / cell_mm);
     to_ = int(std::lround(to.y)) * columns_ + int(std::lround(to.x));
+    passable_.resize(size());
   }
 
-  /// Floods from both ends in turn: where one of them lies in a pocket that is soon known.
-  bool hangs_together() const {
+  /// Whether nodes that can be passed lead from one end to the other. Floods from both in turn: where one of them lies
+  /// in a pocket that is soon known.
+  bool hangs_together() {
+    if (!is_passable(from_) || !is_passable(to_)) return false;
     std::vector<char> side(size(), 0);  // by which end a node was found
     std::array<std::vector<int>, 2> found{std::vector{from_}, std::vector{to_}};
     side[std::size_t(from_)] = 1;
@@ -54,7 +57,7 @@ class Grid {
   }
 
   /// Of the nodes that the cheapest way passes; empty: none is so short.
-  std::vector<Vec2> cheapest(double longest_mm) const {
+  std::vector<Vec2> cheapest(double longest_mm) {
     using Label = std::pair<double, int>;
     std::vector<double> cost(size(), std::numeric_limits<double>::infinity()), way_mm(size(), 0);
     std::vector<int> before(size(), nobody);
@@ -70,6 +73,8 @@ class Grid {
       if (estimate > cost[i] + rest_mm(node) + 1e-9) continue;
       for_neighbours(node, [&](int other) {
         const auto k = std::size_t(other);
+        if (cost[i] + distance(place(node), place(other)) >= cost[k]) return;
+        if (cost_.crosses(place(node), place(other), hardly_visible)) return;
         const double length = way_mm[i] + distance(place(node), place(other));
         const double c = cost[i] + cost_.way(place(node), place(other));
         if (c >= cost[k] || length + rest_mm(other) > longest_mm) return;
@@ -89,17 +94,23 @@ class Grid {
     return node == to_ ? to_mm_ : low_ + Vec2{double(node % columns_), double(node / columns_)} * cell_mm;
   }
 
-  /// Visits those to which the way is clear and the nozzle reaches.
+  /// Whether the nozzle reaches the node, and none there hangs over what is barred.
+  bool is_passable(int node) {
+    char& known = passable_[std::size_t(node)];
+    if (known == 0) {
+      const bool is_end = node == from_ || node == to_;
+      const bool is_reached = is_end || TravelCost::reaches(nozzle_, place(node));
+      known = is_reached && !cost_.crosses(place(node), place(node), hardly_visible) ? 1 : 2;
+    }
+    return known == 1;
+  }
+
   template <class Visit>
-  void for_neighbours(int node, Visit visit) const {
+  void for_neighbours(int node, Visit visit) {
     const int column = node % columns_, row = node / columns_;
     for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y)
-      for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
-        const int other = y * columns_ + x;
-        if (other == node) continue;
-        if (cost_.crosses(place(node), place(other), hardly_visible)) continue;
-        if (other == from_ || other == to_ || TravelCost::reaches(nozzle_, place(other))) visit(other);
-      }
+      for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x)
+        if (const int other = y * columns_ + x; other != node && is_passable(other)) visit(other);
   }
 
   std::vector<Vec2> read_back(const std::vector<int>& before) const {
@@ -115,6 +126,7 @@ class Grid {
   Vec2 from_mm_, to_mm_, low_;
   int columns_ = 0, rows_ = 0;
   int from_ = 0, to_ = 0;
+  std::vector<char> passable_;  // 0: not known yet, 1: yes, 2: no
 };
 
 /// Leaves out places that a straight way, as clear, costs no more without.
@@ -141,7 +153,7 @@ bool crosses(const TravelCost& cost, std::span<const Vec2> way) {
 }
 
 std::vector<Vec2> clear_way(const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm, double longest_mm) {
-  const Grid grid(cost, extruder, from_mm, to_mm);
+  Grid grid(cost, extruder, from_mm, to_mm);
   if (!grid.hangs_together()) return {};
   const std::vector<Vec2> way = grid.cheapest(longest_mm);
   return way.empty() ? way : pulled(way, cost);
