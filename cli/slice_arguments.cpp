@@ -1,9 +1,12 @@
 #include "cli/slice_arguments.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 
 #include "base/error.hpp"
 #include "cli/words.hpp"
@@ -102,12 +105,21 @@ void add_printing(CLI::App& app, SliceTexts& texts) {
       ->group(group);
   app.add_option("--protect", texts.protect,
                  "what keeps the colours apart: nothing, azimuth and rampart, or these and the planner of travel (the "
-                 "default); --azimuth and --rampart beside it count more")
+                 "default); --azimuth, --rampart and --planner beside it count more")
       ->type_name("none|rampart|full")
       ->group(group);
   app.add_option("--rampart", texts.rampart,
                  "walls that wipe and fill nozzles: following the part, straight up, or none; short for --set rampart")
       ->type_name("conforming|vertical|off")
+      ->group(group);
+  app.add_option("--planner", texts.planner,
+                 "ways and starts that keep colours clean, the paper's to the letter, or the nearest path next; short "
+                 "for --set planner, which counts more")
+      ->type_name("clean|paper|plain")
+      ->group(group);
+  app.add_option("--effort", texts.effort,
+                 "how long cleaner orders are searched for; short for --set effort, which counts more")
+      ->type_name("fast|normal|best")
       ->group(group);
   app.add_option("--set", settings.set, "one option, such as layer_height=0.2; repeatable; see 'cleancolor options'")
       ->type_name("NAME=VALUE")
@@ -196,12 +208,15 @@ std::optional<double> azimuth_of(const std::string& text) {
   return degrees;
 }
 
+void require_word(const char* option, const std::string& text, std::initializer_list<std::string_view> words) {
+  if (text.empty() || std::ranges::find(words, text) != words.end()) return;
+  throw Error(fmt::format("{}: '{}' is none of {}", option, text, fmt::join(words, ", ")));
+}
+
 /// Whether parts are turned and walled in.
 bool require_protection(const std::string& protect) {
-  if (protect == "none") return false;
-  if (!protect.empty() && protect != "rampart" && protect != "full")
-    throw Error(fmt::format("--protect: '{}' is none of none, rampart, full", protect));
-  return true;
+  require_word("--protect", protect, {"none", "rampart", "full"});
+  return protect != "none";
 }
 
 Overlap overlap_of(const std::string& text) {
@@ -257,7 +272,11 @@ SliceCommand slice_command(const CLI::App& app, SliceTexts texts) {
   const bool protects = require_protection(texts.protect);
   command.azimuth_deg = azimuth_of(texts.azimuth.value_or(protects ? "auto" : "off"));
   // What is set by name counts more.
+  require_word("--planner", texts.planner, {"clean", "paper", "plain"});
+  require_word("--effort", texts.effort, {"fast", "normal", "best"});
   std::vector<std::string>& set = command.settings.set;
+  if (!texts.effort.empty()) set.insert(set.begin(), "effort=" + texts.effort);
+  if (!texts.planner.empty()) set.insert(set.begin(), "planner=" + texts.planner);
   if (!protects) set.insert(set.begin(), "rampart=off");
   if (!texts.protect.empty() && texts.protect != "full") set.insert(set.begin(), "planner=plain");
   if (!texts.rampart.empty()) command.settings.set.push_back("rampart=" + texts.rampart);

@@ -22,6 +22,8 @@ struct SliceTexts {
   std::optional<std::string> azimuth;
   std::string rampart;
   std::string protect;
+  std::string planner;
+  std::string effort;
   std::string overlap = "refuse";
   bool keep = false;
   CLI::Option* file_option = nullptr;

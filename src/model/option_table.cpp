@@ -173,7 +173,7 @@ constexpr Option table[] = {
   {"rampart_max_overhang", print, "Rampart", &C::rampart_max_overhang_deg, "degrees", 0, 80, "how far conforming walls lean over, from the vertical; at most half a line a layer"},
   {"rampart_brim_width", print, "Rampart", &C::rampart_brim_width_mm, "mm", 0, 100, "of the walls in the first layer, so that they stand; 0: none"},
 
-  {"planner", print, "Planner", &C::planner, "", 0, 0, "clean: ways that keep nozzles off other colours and starts that cannot be seen; paper: the costs of Clean color to the letter; plain: the nearest path next, straight"},
+  {"planner", print, "Planner", &C::planner, "", 0, 0, "clean: ways that keep nozzles off other colours and starts that cannot be seen; paper: the costs of Clean color to the letter and its print_order; plain: the nearest path next, straight"},
   {"effort", print, "Planner", &C::effort, "", 0, 0, "how long cleaner orders are searched for"},
   {"print_order", print, "Planner", &C::print_order, "", 0, 0, "exposure: the order in which idle nozzles are predicted to smear least; few_changes: all that one extruder can print, nearest first; paper: zone by zone, longer ones first, as in Clean color"},
   {"refill_mode", print, "Planner", &C::refill_mode, "", 0, 0, "plastic pushed beside a wall of the rampart; model: what is forecast to be missing, before an outer wall would lack it; fixed: refill_volume on every way along a wall; off: none"},

@@ -10,10 +10,23 @@
 //
 // The paper charges a nozzle's way over another colour once an edge, by the place where the edge ends; here it is
 // charged by the mm, or the cost would depend on the length of edges, and some would leap over a colour for nothing.
+//
+// planner = paper has the paper's costs instead:
+//
+//   cost of an edge p -> q  =  W_d x length / extent  +  sum over nozzles of M x visibility, where q is over another
+//                              colour; a tenth of both along a wall of the rampart
+//   cost of a start or end  =  visibility of the place
+//
+// What cannot be seen and what has the nozzle's own colour is free. Its edges are those of its grid of 0.05 mm: a
+// longer way counts as a row of them, whatever the spacing of the nodes.
 // Source: Hergel and Lefebvre, Clean color, section 6.4.
+// Differs: visibility is charged where a path is begun and ended (the paper's Z, on the edges that enter and leave it),
+// not where a travel runs along a path before it begins.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,6 +55,21 @@ inline double over_cost(const TravelWeights& w, LayerMap::Cell cell, int nozzle)
   return w.crossing * std::min(1., v / 0.05) + w.foreign * v;
 }
 
+/// The paper's.
+struct PaperWeights {
+  double distance = 0.1;  // W_d: of a way as long as the extent
+  double mismatch = 10;   // M, x visibility
+  double rampart = 0.1;   // share of the cost along walls
+  double edge_mm = 0.05;
+  double extent_mm = 100;                             // the largest of the slice
+  double mm() const { return extent_mm / distance; }  // of way that a cost of 1 is worth
+};
+
+/// Of the paper's edge that ends over this cell, for one nozzle.
+inline double mismatch_cost(const PaperWeights& w, LayerMap::Cell cell, int nozzle) {
+  return cell.extruder == LayerMap::air || cell.extruder == nozzle ? 0 : w.mismatch * cell.visibility / 255.;
+}
+
 /// The nozzles that hang at print height, and the layer below them. Positions are the carriage's: of nozzle 0.
 class TravelCost {
  public:
@@ -52,6 +80,11 @@ class TravelCost {
   };
   TravelCost(const LayerMap& map, std::vector<Nozzle> nozzles, const TravelWeights& weights)
       : map_(map), nozzles_(std::move(nozzles)), weights_(weights) {}
+  static TravelCost of_paper(const LayerMap& map, std::vector<Nozzle> nozzles, const PaperWeights& paper) {
+    TravelCost cost(map, std::move(nozzles), {.seam = paper.mm(), .smear = 0, .hole = 0});
+    cost.paper_ = paper;
+    return cost;
+  }
 
   struct Way {
     double cost = 0;
@@ -60,6 +93,7 @@ class TravelCost {
 
   /// The straight way from a to b.  Cost: about 3 ns for each nozzle and 0.2 mm.
   Way straight(Vec2 a, Vec2 b) const {
+    if (paper_) return straight_of_paper(a, b);
     const double length = distance(a, b);
     const int steps = int(length / step_mm) + 1;
     double sum = 0;
@@ -75,6 +109,17 @@ class TravelCost {
     return {length + sum * length / steps, foreign / 255.};
   }
   double way(Vec2 a, Vec2 b) const { return straight(a, b).cost; }
+
+  /// Whether a nozzle hangs over foreign plastic of a larger visibility anywhere on the straight way from a to b; what
+  /// its cost is summed over can leap over a corner.
+  bool crosses(Vec2 a, Vec2 b, double visibility) const {
+    const auto crosses = [&](const Nozzle& n) {
+      return map_.any_along(a + n.offset_mm, b + n.offset_mm, [&](LayerMap::Cell cell) {
+        return cell.extruder != n.extruder && cell.visibility > visibility * 255;
+      });
+    };
+    return std::ranges::any_of(nozzles_, crosses);
+  }
 
   /// Of touching foreign plastic of this visibility after a way of so many mm since the last touch: what has oozed out.
   double smear(double foreign, double way_mm) const { return weights_.smear * foreign * way_mm; }
@@ -94,15 +139,42 @@ class TravelCost {
     return nozzle.reach.empty() || contains(nozzle.reach, to_nm(c + nozzle.offset_mm));
   }
 
+  /// Whether a way costs something else the other way round.
+  bool is_directed() const { return paper_.has_value(); }
+
   const LayerMap& map() const { return map_; }
   const std::vector<Nozzle>& nozzles() const { return nozzles_; }
 
  private:
+  Way straight_of_paper(Vec2 a, Vec2 b) const {
+    const double length = distance(a, b);
+    const int edges = std::max(1, int(std::ceil(length / paper_->edge_mm - 1e-9)));
+    std::vector<LayerMap::Cell> from(nozzles_.size());
+    for (std::size_t k = 0; k < nozzles_.size(); ++k) from[k] = map_.at(a + nozzles_[k].offset_mm);
+    Way way;
+    for (int i = 1; i <= edges; ++i) {
+      const Vec2 q = lerp(a, b, double(i) / edges);
+      double mismatch = 0;
+      bool along_wall = false;
+      for (std::size_t k = 0; k < nozzles_.size(); ++k) {
+        const int own = nozzles_[k].extruder;
+        const LayerMap::Cell cell = map_.at(q + nozzles_[k].offset_mm);
+        mismatch += mismatch_cost(*paper_, cell, own);
+        along_wall = along_wall || (cell.wall != 0 && cell.wall == from[k].wall);
+        if (cell.extruder != own) way.foreign = std::max(way.foreign, cell.visibility / 255.);
+        from[k] = cell;
+      }
+      way.cost += (length / edges + mismatch * paper_->mm()) * (along_wall ? paper_->rampart : 1);
+    }
+    return way;
+  }
+
   static constexpr double step_mm = 0.2;
   static constexpr double short_hop_mm = 1, stop_mm = 18;  // a travel that is no short one loses the time of so many mm
   const LayerMap& map_;
   std::vector<Nozzle> nozzles_;
   TravelWeights weights_;
+  std::optional<PaperWeights> paper_;
 };
 
 }  // namespace cleancolor

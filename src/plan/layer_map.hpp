@@ -8,6 +8,8 @@
 // below both what translucent plastic lets through.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -46,6 +48,26 @@ class LayerMap {
     const int x = int((p_mm.x - origin_.x) * per_mm_), y = int((p_mm.y - origin_.y) * per_mm_);
     if (p_mm.x < origin_.x || p_mm.y < origin_.y || x >= columns_ || y >= rows_) return {};
     return cells_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
+  }
+
+  /// Whether the visitor says so of any cell that the straight way from a to b passes.
+  template <class Visit>
+  bool any_along(Vec2 a, Vec2 b, Visit visit) const {
+    // Shares of the way from border to border, in X and in Y.
+    const auto step = [&](double d) { return d != 0 ? 1 / (std::abs(d) * per_mm_) : INFINITY; };
+    const auto first = [&](double at, double d) {
+      const double u = at * per_mm_;
+      return d > 0 ? (std::floor(u) + 1 - u) * step(d) : d < 0 ? (u - std::ceil(u) + 1) * step(d) : INFINITY;
+    };
+    const Vec2 way = b - a, from = a - origin_;
+    Vec2 next{first(from.x, way.x), first(from.y, way.y)};
+    for (double t = 0;;) {
+      const double end = std::min({1., next.x, next.y});
+      if (visit(at(lerp(a, b, (t + end) / 2)))) return true;
+      if (end >= 1) return false;
+      (next.x <= next.y ? next.x : next.y) += step(next.x <= next.y ? way.x : way.y);
+      t = end;
+    }
   }
 
   double cell_mm() const { return 1 / per_mm_; }

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "plan/inclusion_order.hpp"
 #include "plan/precedence.hpp"
 #include "shield/start.hpp"
 
@@ -25,6 +26,7 @@ double distance_to(const Box<Vec2>& box, Vec2 p) {
 }
 
 constexpr std::size_t walls_compared = 8;
+constexpr int bed_island = -1;
 
 /// [extruder][island]; std::map keeps both in their order.
 using Islands = std::map<int, std::map<int, std::vector<Path>>>;
@@ -41,29 +43,70 @@ class Orderer {
       (path.road().role == Role::rampart ? walls_[path.extruder] : own[path.island]).push_back(std::move(path));
     }
     layer_.paths.clear();
+    if (prints_by_inclusion(config_)) {
+      print_by_inclusion(paths);
+    } else {
+      print_by_extruder(paths);
+    }
+    state_.seams.next_layer();
+  }
+
+ private:
+  void print_by_extruder(Islands& paths) {
     const std::vector<int> extruders = sequence(paths);
+    print_all_walls(paths, extruders);
+    for (const int extruder : extruders) {
+      print_bed(paths[extruder]);
+      print_walls(extruder);
+      print_extruder(extruder, paths[extruder]);
+    }
+  }
+
+  /// Each extruder's bed and walls come before its first path; those that print nothing of the part come first.
+  void print_by_inclusion(Islands& paths) {
+    std::vector<Path> part;
+    for (auto& [extruder, islands] : paths)
+      for (auto& [island, own] : islands)
+        if (island != bed_island) std::ranges::move(own, std::back_inserter(part));
+    const std::vector<int> order = inclusion_order(part);
+    std::vector<int> extruders;
+    const auto takes_part = [&](int extruder) { return std::ranges::find(extruders, extruder) != extruders.end(); };
+    for (const int i : order)
+      if (const int extruder = part[std::size_t(i)].extruder; !takes_part(extruder)) extruders.push_back(extruder);
+    std::vector<int> others;
+    for (const int extruder : sequence(paths))
+      if (!takes_part(extruder)) others.push_back(extruder);
+    extruders.insert(extruders.begin(), others.begin(), others.end());
+    print_all_walls(paths, extruders);
+    const auto prepare = [&](int extruder) {
+      print_bed(paths[extruder]);
+      print_walls(extruder);
+    };
+    for (const int extruder : others) prepare(extruder);
+    for (const int i : order) {
+      Path& path = part[std::size_t(i)];
+      prepare(path.extruder);
+      state_.extruder = path.extruder;
+      print(std::move(path));
+    }
+  }
+
+  void print_all_walls(Islands& paths, const std::vector<int>& extruders) {
     // The walls of the first extruder last, so that it goes on.
     if (config_.rampart_order == RampartOrder::layer_start)
       for (std::size_t i = extruders.size(); i-- > 0;) {
         print_bed(paths[extruders[i]]);
         print_walls(extruders[i]);
       }
-    for (const int extruder : extruders) {
-      print_bed(paths[extruder]);
-      print_walls(extruder);
-      print_extruder(extruder, paths[extruder]);
-    }
-    state_.seams.next_layer();
   }
 
- private:
   /// The extruder of the layer below first. Before it, in the first layer, those that are only primed there: the part
   /// is not left for them.
   std::vector<int> sequence(const Islands& paths) const {
     std::vector<int> result;
     for (const auto& [extruder, islands] : paths) result.push_back(extruder);
     const auto rank = [&](int extruder) {
-      const bool only_primed = paths.at(extruder).empty() || paths.at(extruder).rbegin()->first == -1;
+      const bool only_primed = paths.at(extruder).empty() || paths.at(extruder).rbegin()->first == bed_island;
       return layer_.index == 0 && only_primed ? 0 : extruder == state_.extruder ? 1 : 2;
     };
     std::stable_sort(result.begin(), result.end(), [&](int a, int b) { return rank(a) < rank(b); });
@@ -72,7 +115,7 @@ class Orderer {
 
   /// Skirt, brim and prime lines.
   void print_bed(std::map<int, std::vector<Path>>& islands) {
-    const auto bed = islands.find(-1);
+    const auto bed = islands.find(bed_island);
     if (bed == islands.end()) return;
     for (Path& path : bed->second) print(std::move(path));
     islands.erase(bed);

@@ -6,6 +6,9 @@
 // first one with the extruders that are only primed in it. Each extruder prints island by island: perimeters from the
 // inside out (or as Path::depth and external_first say), ring by ring (all loops of a hole, then those of the outline),
 // then fills. It is the baseline that the planner of clean colour is measured against.
+//
+// print_order = paper, and planner = paper: from the inside out across colours instead (plan/inclusion_order.hpp), with
+// as many tool changes as that takes; external_perimeters_first does not count then.
 #pragma once
 
 #include "base/polygon.hpp"
@@ -27,6 +30,11 @@ struct RampartSite {
   std::vector<int> extruders;  // whose nozzles are still needed
   Polygons part;               // all plastic of the part
 };
+
+/// Whether the layer's paths are printed in the paper's order.
+inline bool prints_by_inclusion(const Config& config) {
+  return config.planner == Planner::paper || config.print_order == PrintOrder::paper;
+}
 
 /// The layer's paths in printing order: closed ones begun at their seam, open ones turned round where that is nearer.
 /// Paths of no island (Path::island == -1) come first for each extruder, in the order given; walls of the rampart

@@ -59,6 +59,10 @@ class PlannedLayer {
   Vec2 offset_mm(const Path& path) const;
   std::vector<Path> planned(std::vector<Path> paths, const std::vector<int>& nozzles, const PlanScene& scene);
 
+  /// Joined loops and leads begin and end beside the places through which the tour was found, so that the ways there
+  /// may graze another colour: these, and any other that crosses one, are found again.
+  void find_clear_ways(std::span<Path> paths, const Run& run) const;
+
   Layer layer_;
   const Config* config_;
   std::unique_ptr<LayerMap> map_;

@@ -236,7 +236,8 @@ void add_arcs(Roadmap& map, const TravelCost& cost) {
   for (const auto& [a, b] : edges) {
     const TravelCost::Way way = cost.straight(map.nodes_mm[a], map.nodes_mm[b]);
     map.arcs[next[a]++] = {b, float(way.cost), float(way.foreign)};
-    map.arcs[next[b]++] = {a, float(way.cost), float(way.foreign)};
+    const TravelCost::Way back = cost.is_directed() ? cost.straight(map.nodes_mm[b], map.nodes_mm[a]) : way;
+    map.arcs[next[b]++] = {a, float(back.cost), float(back.foreign)};
   }
 }
 

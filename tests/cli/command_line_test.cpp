@@ -69,6 +69,18 @@ TEST(CommandLine, KeepsValuesWithCommasAndSemicolonsWhole) {
   EXPECT_EQ(set, (Words{"temperature=200,210", "filament_type=PLA;ABS", "start_gcode=G28 [x]"}));
 }
 
+TEST(CommandLine, ShortFormsOfOptionsCountLessThanTheirNames) {
+  const auto set_by = [](Words words) {
+    words.insert(words.begin(), "a.stl");
+    return slice_of(words).settings.set;
+  };
+  EXPECT_EQ(set_by({"--planner", "paper"}), (Words{"planner=paper"}));
+  EXPECT_EQ(set_by({"--effort", "best", "--planner", "clean"}), (Words{"planner=clean", "effort=best"}));
+  EXPECT_EQ(set_by({"--set", "planner=plain", "--planner", "paper"}), (Words{"planner=paper", "planner=plain"}));
+  // But more than what --protect says of it.
+  EXPECT_EQ(set_by({"--planner", "paper", "--protect", "rampart"}), (Words{"planner=plain", "planner=paper"}));
+}
+
 TEST(CommandLine, NamesTheOutputAfterTheFirstMesh) {
   EXPECT_EQ(slice_of({"dir/a.b.stl", "c.stl"}).output, "dir/a.b.gcode");
 }
@@ -91,6 +103,9 @@ TEST(CommandLine, RefusesWhatItDoesNotUnderstand) {
   EXPECT_ERROR(slice_of({"a.stl", "--rotate", "inf"}), "--rotate");
   EXPECT_ERROR(slice_of({"a.stl", "--rotate", "left"}), "--rotate");
   EXPECT_ERROR(slice_of({"a.stl", "--overlap", "both"}), "--overlap: 'both' is none of refuse, first, last");
+  EXPECT_ERROR(slice_of({"a.stl", "--planner", "Paper"}), "--planner: 'Paper' is none of clean, paper, plain");
+  EXPECT_ERROR(slice_of({"a.stl", "--effort", "high"}), "--effort: 'high' is none of fast, normal, best");
+  EXPECT_ERROR(slice_of({"a.stl", "--effort"}), "--effort");
   EXPECT_ERROR(slice_of({"a.stl", "--threads", "-1"}), "--threads: -1 is not between 0 and 1024");
   EXPECT_ERROR(slice_of({"a.stl", "--threads", "many"}), "--threads");
   for (const char* bad : {"red=1", "#FF8000", "#FF80=1", "#GG0000=1", "#FF8000=0", "#FF8000=x", "#-12345=1", "=1"}) {
@@ -110,9 +125,9 @@ TEST(CommandLine, TellsExamplesAndExitCodesInHelp) {
     EXPECT_NE(help.find("130  interrupted"), help.npos);
   }
   const std::string help = text_of({"slice", "a.stl", "-h"});
-  for (const char* option :
-       {"--extruder", "--map-colour", "--center", "--no-center", "--rotate", "--scale", "--overlap", "--printer",
-        "--material", "--print", "--load", "--set", "--output", "--preview", "--json", "--quiet", "--threads"}) {
+  for (const char* option : {"--extruder", "--map-colour", "--center", "--no-center", "--rotate", "--scale",
+                             "--overlap", "--printer", "--material", "--print", "--load", "--planner", "--effort",
+                             "--set", "--output", "--preview", "--json", "--quiet", "--threads"}) {
     EXPECT_NE(help.find(option), help.npos) << option;
   }
   EXPECT_NE(text_of({"profiles", "show", "--help"}).find("cleancolor profiles show"), std::string::npos);

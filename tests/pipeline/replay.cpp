@@ -121,7 +121,7 @@ class Printer {
     } else {
       if (travelled_mm_ == 0) drawn_back_before_ = drawn_back_[std::size_t(tool_)] > 1e-9;
       travelled_mm_ += moved;
-      printed.travels.push_back({tool_, at_ + shift(), z_});
+      printed.travels.push_back({tool_, at_ + shift(), z_, printed.roads.size()});
     }
   }
 

@@ -33,6 +33,7 @@ struct PrintedTravel {
   int tool = 0;
   Vec2 to;
   double z = 0;
+  std::size_t before_road = 0;  // index of the road that follows
 };
 
 struct Printed {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "drawn_layer.hpp"
 
@@ -75,6 +76,28 @@ TEST(LayerMap, ShowsWhatLiesInsideTranslucentPlastic) {
   const LayerMap before = layer.map(), none({layer.regions, layer.outline, layer.above, 45, 0.4}, {}, visibility);
   for (double x = -1; x < 21; x += 0.1)
     for (double y = -1; y < 11; y += 0.1) EXPECT_EQ(none.at({x, y}).visibility, before.at({x, y}).visibility);
+}
+
+TEST(LayerMap, FindsEveryCellOnAWay) {
+  std::mt19937 random(6);
+  std::vector<Path> paths;
+  const DrawnLayer layer = random_drawn_layer(random, 6, 20, paths);
+  const LayerMap map = layer.map();
+  std::uniform_real_distribution<double> any(-2, 25);
+  const auto is_seen = [](LayerMap::Cell cell) { return cell.visibility > 128; };
+  int found = 0;
+  for (int t = 0; t < 3000; ++t) {
+    Vec2 a{any(random), any(random)}, b{any(random) / 5 + a.x - 2, any(random) / 5 + a.y - 2};
+    if (t % 3 == 0) b.x = a.x;
+    if (t % 5 == 0) b.y = a.y;
+    bool by_steps = false;
+    for (int i = 0; i < 2000; ++i) by_steps = by_steps || is_seen(map.at(lerp(a, b, (i + 0.5) / 2000)));
+    const bool along = map.any_along(a, b, is_seen);
+    EXPECT_TRUE(along || !by_steps) << t;
+    found += along - by_steps;
+    EXPECT_EQ(along, map.any_along(b, a, is_seen)) << t;
+  }
+  EXPECT_LE(found, 3) << "corners that the steps leapt over";
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <queue>
 
 #include "drawn_layer.hpp"
+#include "free_way.hpp"
 
 namespace cleancolor {
 namespace {
@@ -77,6 +79,54 @@ TEST(Roadmap, EntersWhereAPathCanBeSeenLeast) {
   EXPECT_EQ(cost.visibility(roadmap(paths, cost).entries[0][visits[0].entry].at_mm), 0);
 }
 
+/// Nodes anywhere and arcs of any cost between them, each both ways; all hang together.
+Roadmap random_roads(std::mt19937& random, std::uint32_t nodes) {
+  std::uniform_real_distribution<double> any(0, 50);
+  std::vector<std::vector<Arc>> arcs(nodes);
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    arcs[a].push_back({b, float(any(random)), 0});
+    arcs[b].push_back({a, float(any(random)), 0});
+  };
+  for (std::uint32_t i = 1; i < nodes; ++i) join(i, std::uint32_t(random() % i));
+  for (std::uint32_t i = 0; i < 2 * nodes; ++i) join(std::uint32_t(random() % nodes), std::uint32_t(random() % nodes));
+  Roadmap roads;
+  roads.first_arc = {0};
+  for (const std::vector<Arc>& own : arcs) {
+    roads.nodes_mm.push_back({any(random), any(random)});
+    roads.reached_by.push_back(1);
+    roads.arcs.insert(roads.arcs.end(), own.begin(), own.end());
+    roads.first_arc.push_back(std::uint32_t(roads.arcs.size()));
+  }
+  return roads;
+}
+
+TEST(Ways, CannotBeImprovedByAnyArcAndAreAttained) {
+  const DrawnLayer layer({{}, {}});
+  const LayerMap map = layer.map();
+  const TravelCost cost(map, {{0, {0, 0}, {}}}, TravelWeights{});
+  std::mt19937 random(4);
+  for (int t = 0; t < 50; ++t) {
+    SCOPED_TRACE(t);
+    const Roadmap roads = random_roads(random, 60);
+    std::vector<std::uint32_t> all(roads.nodes_mm.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const std::vector<WayLength> ways_to = ways(roads, cost, 0, 7, all);
+    EXPECT_EQ(ways_to[7].cost, 0);
+    std::vector<char> attained(all.size(), 0);
+    attained[7] = 1;
+    for (const std::uint32_t node : all)
+      for (const Arc& arc : roads.arcs_of(node)) {
+        const double by_arc = ways_to[node].cost + double(arc.cost);
+        EXPECT_LE(ways_to[arc.to].cost, by_arc + 1e-9);
+        const double length = distance(roads.nodes_mm[node], roads.nodes_mm[arc.to]);
+        if (std::abs(by_arc - ways_to[arc.to].cost) < 1e-9 &&
+            std::abs(ways_to[node].way_mm + length - ways_to[arc.to].way_mm) < 1e-9)
+          attained[arc.to] = 1;
+      }
+    EXPECT_EQ(std::ranges::count(attained, 1), std::ptrdiff_t(all.size()));
+  }
+}
+
 /// The cheapest tour over all entries by trying every pair of neighbours.
 double exhaustive_cost(const Roadmap& roads, const std::vector<Path>& paths, const TravelCost& cost) {
   std::vector<double> so_far;
@@ -129,37 +179,6 @@ TEST(Tour, IsNoDearerThanTheBestOfAll) {
   }
 }
 
-/// Whether a grid of 0.25 mm has a way from a to b, no longer than `longest_mm`, on which no nozzle is over visible
-/// plastic of another colour.
-bool grid_finds_a_way(const TravelCost& cost, Vec2 a, Vec2 b, double longest_mm) {
-  constexpr double cell = 0.25;
-  const Vec2 low = Vec2{std::min(a.x, b.x), std::min(a.y, b.y)} - Vec2{45, 45};
-  const int columns = int((std::abs(a.x - b.x) + 90) / cell), rows = int((std::abs(a.y - b.y) + 90) / cell);
-  const auto place = [&](int i) { return low + Vec2{i % columns + 0.5, i / columns + 0.5} * cell; };
-  const auto index = [&](Vec2 p) { return int((p.y - low.y) / cell) * columns + int((p.x - low.x) / cell); };
-  std::vector<double> way(std::size_t(columns) * std::size_t(rows), std::numeric_limits<double>::infinity());
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  queue.emplace(way[std::size_t(index(a))] = 0, index(a));
-  while (!queue.empty()) {
-    const auto [w, i] = queue.top();
-    queue.pop();
-    if (w > longest_mm) return false;
-    if (i == index(b)) return true;
-    if (w > way[std::size_t(i)]) continue;
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int x = i % columns + dx, y = i / columns + dy;
-        if (x < 0 || y < 0 || x >= columns || y >= rows) continue;
-        const int j = y * columns + x;
-        const double next = w + cell * std::hypot(dx, dy);
-        if (next >= way[std::size_t(j)] || cost.straight(place(i), place(j)).foreign > 0) continue;
-        queue.emplace(way[std::size_t(j)] = next, j);
-      }
-  }
-  return false;
-}
-
 TEST(Tour, CrossesForeignPlasticOnlyWhereAFineGridFindsNoWay) {
   std::mt19937 random(3);
   int around = 0, through = 0;
@@ -183,8 +202,8 @@ TEST(Tour, CrossesForeignPlasticOnlyWhereAFineGridFindsNoWay) {
       around += foreign <= 0.05 && straight_is_bad;
       if (foreign <= 0.05) continue;
       ++through;
-      EXPECT_FALSE(grid_finds_a_way(cost, way.front(), way.back(), 4 * std::max(extent.x, extent.y)))
-          << "layer " << t << ", path " << k;
+      const FreeWay wanted{.longest_mm = 4 * std::max(extent.x, extent.y)};
+      EXPECT_TRUE(free_way(cost, way.front(), way.back(), wanted).empty()) << "layer " << t << ", path " << k;
     }
   }
   EXPECT_GT(around, 10);
