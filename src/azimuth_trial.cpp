@@ -48,7 +48,7 @@ class Trial {
         use_(use),
         config_(trial_config(config)),
         threads_(options.threads),
-        layers_(sample(int(slices.slabs.size()), options.layers)),
+        layers_(sample(int(slices.slabs.size()), 2 * options.layers / std::max(2, int(use.extruders.size())))),
         rampart_(slices, use, config_, options.threads, layers_),
         paths_(layers_.size()) {
     std::vector<double> height_mm;

@@ -21,7 +21,7 @@ struct AzimuthTrial {
 };
 
 struct TrialOptions {
-  int layers = 24;  // looked at, evenly spread
+  int layers = 24;  // looked at, evenly spread; fewer where there are more than two nozzles
   int threads = 1;
 };
 

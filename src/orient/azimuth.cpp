@@ -108,9 +108,11 @@ Azimuths azimuths(const Slices& slices, const AzimuthOptions& options) {
   if (!all.empty()) {
     const Interference interference(slices);
     const ExposureMap exposure(slices, options.pace, options.threads);
-    // For two nozzles half a turn swaps p and p + d: the volume stays the same. The exposure does not.
-    const int half = all.size() == 2 ? angle_count / 2 : angle_count;
-    parallel_for(angle_count, options.threads, [&](int a) {
+    // For two nozzles half a turn swaps p and p + d: the volume stays the same. The exposure does not. For more there
+    // are many pairs: every other angle is looked at, those between are their means.
+    const int half = all.size() == 2 ? angle_count / 2 : angle_count, step = all.size() == 2 ? 1 : 2;
+    parallel_for(angle_count / step, options.threads, [&](int i) {
+      const int a = step * i;
       for (const auto& [printing, idle] : all) {
         const Vec2 delta =
             options.nozzle_offset_mm[std::size_t(idle)] - options.nozzle_offset_mm[std::size_t(printing)];
@@ -121,6 +123,9 @@ Azimuths azimuths(const Slices& slices, const AzimuthOptions& options) {
     });
     for (int a = half; a < angle_count; ++a)
       result.interference_mm3[std::size_t(a)] = result.interference_mm3[std::size_t(a - half)];
+    for (std::vector<double>* curve : {&result.interference_mm3, &result.exposure_s})
+      for (int a = 1; step == 2 && a < angle_count; a += step)
+        (*curve)[std::size_t(a)] = (at_azimuth(*curve, a - 1) + at_azimuth(*curve, a + 1)) / 2;
   }
   const double negligible_s = negligible_exposure * std::ranges::max(result.exposure_s);
   const auto smallest_turn = [&](double share) { return least(result.exposure_s, result.fits, share, negligible_s); };

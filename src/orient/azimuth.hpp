@@ -51,7 +51,8 @@ inline double at_azimuth(const std::vector<double>& curve, int degrees) {
 }
 
 struct Azimuths {
-  std::vector<double> interference_mm3;  // [360]: turned by 0, 1, ... 359 degrees, counterclockwise seen from above
+  std::vector<double> interference_mm3;  // [360]: turned by 0, 1, ... 359 degrees, counterclockwise seen from above; of
+                                         // more than two nozzles odd ones are means of their neighbours
   std::vector<double> exposure_s;        // likewise: visibility x seconds
   std::vector<char> fits;                // likewise
   double part_mm3 = 0;

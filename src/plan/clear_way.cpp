@@ -10,40 +10,47 @@ namespace cleancolor {
 namespace {
 
 constexpr double hardly_visible = 0.05;
-constexpr double cell_mm = 0.25;
+constexpr double coarse_mm = 0.5, fine_mm = 0.25;
 constexpr double margin_mm = 45;  // around both ends
+constexpr double coarse_hurry = 1.5;  // of the rest of the way: fewer nodes are looked at, a way may be a little dearer
+constexpr double largest_pocket_mm2 = 1500;
 constexpr int nobody = -1;
 
-/// Nodes every 0.25 mm, the first end on one of them, each joined to its eight neighbours.
+/// Nodes so far apart, the first end on one of them, each joined to its eight neighbours. Coarse ones need room around
+/// them, and edges between them are judged by their ends alone; fine ones find every gap.
 class Grid {
  public:
-  Grid(const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm)
+  Grid(const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm, double cell_mm)
       : cost_(cost),
+        cell_mm_(cell_mm),
+        is_coarse_(cell_mm > fine_mm),
         nozzle_(*std::ranges::find(cost.nozzles(), extruder, &TravelCost::Nozzle::extruder)),
         from_mm_(from_mm),
         to_mm_(to_mm) {
-    const auto cells = [](double mm) { return int(std::ceil(mm / cell_mm)); };
+    const auto cells = [=](double mm) { return int(std::ceil(mm / cell_mm)); };
     const int left = cells(std::max(0., from_mm.x - to_mm.x) + margin_mm);
     const int below = cells(std::max(0., from_mm.y - to_mm.y) + margin_mm);
     columns_ = left + cells(std::max(0., to_mm.x - from_mm.x) + margin_mm) + 1;
     rows_ = below + cells(std::max(0., to_mm.y - from_mm.y) + margin_mm) + 1;
     low_ = from_mm - Vec2{double(left), double(below)} * cell_mm;
     from_ = below * columns_ + left;
-    const Vec2 to = (to_mm - low_) * (1 / cell_mm);
+    const Vec2 to = (to_mm - low_) * (1 / cell_mm_);
     to_ = int(std::lround(to.y)) * columns_ + int(std::lround(to.x));
     passable_.resize(size());
+    node_cost_.resize(size());
   }
 
-  /// Whether nodes that can be passed lead from one end to the other. Floods from both in turn: where one of them lies
-  /// in a pocket that is soon known.
-  bool hangs_together() {
+  /// Whether nodes that can be passed lead from one end to the other, or may do so. Floods from both in turn: where one
+  /// of them lies in a pocket that is soon known; where both lie in larger areas, a search must tell.
+  bool may_hang_together() {
     if (!is_passable(from_) || !is_passable(to_)) return false;
     std::vector<char> side(size(), 0);  // by which end a node was found
     std::array<std::vector<int>, 2> found{std::vector{from_}, std::vector{to_}};
     side[std::size_t(from_)] = 1;
     if (side[std::size_t(to_)] == 1) return true;
     side[std::size_t(to_)] = 2;
-    for (std::size_t next = 0;; ++next)
+    const auto most = std::size_t(largest_pocket_mm2 / (cell_mm_ * cell_mm_));
+    for (std::size_t next = 0; next < most; ++next)
       for (const std::size_t end : {0U, 1U}) {
         if (next >= found[end].size()) return false;
         bool met = false;
@@ -54,6 +61,7 @@ class Grid {
         });
         if (met) return true;
       }
+    return true;
   }
 
   /// Of the nodes that the cheapest way passes; empty: none is so short.
@@ -62,7 +70,8 @@ class Grid {
     std::vector<double> cost(size(), std::numeric_limits<double>::infinity()), way_mm(size(), 0);
     std::vector<int> before(size(), nobody);
     const auto rest_mm = [&](int node) { return distance(place(node), place(to_)); };
-    std::vector<Label> heap{{rest_mm(from_), from_}};
+    const double hurry = is_coarse_ ? coarse_hurry : 1;
+    std::vector<Label> heap{{hurry * rest_mm(from_), from_}};
     cost[std::size_t(from_)] = 0;
     while (!heap.empty()) {
       std::ranges::pop_heap(heap, std::greater());
@@ -70,18 +79,20 @@ class Grid {
       heap.pop_back();
       const auto i = std::size_t(node);
       if (node == to_) return read_back(before);
-      if (estimate > cost[i] + rest_mm(node) + 1e-9) continue;
+      if (estimate > cost[i] + hurry * rest_mm(node) + 1e-9) continue;
       for_neighbours(node, [&](int other) {
         const auto k = std::size_t(other);
-        if (cost[i] + distance(place(node), place(other)) >= cost[k]) return;
-        if (cost_.crosses(place(node), place(other), hardly_visible)) return;
-        const double length = way_mm[i] + distance(place(node), place(other));
-        const double c = cost[i] + cost_.way(place(node), place(other));
+        const double edge_mm = distance(place(node), place(other));
+        if (cost[i] + edge_mm >= cost[k]) return;
+        if (!is_coarse_ && cost_.crosses(place(node), place(other), hardly_visible)) return;
+        const double length = way_mm[i] + edge_mm;
+        const double c = cost[i] + (is_coarse_ ? edge_mm * (node_cost(node) + node_cost(other)) / 2
+                                               : cost_.way(place(node), place(other)));
         if (c >= cost[k] || length + rest_mm(other) > longest_mm) return;
         cost[k] = c;
         way_mm[k] = length;
         before[k] = node;
-        heap.emplace_back(cost[k] + rest_mm(other), other);
+        heap.emplace_back(cost[k] + hurry * rest_mm(other), other);
         std::ranges::push_heap(heap, std::greater());
       });
     }
@@ -91,7 +102,7 @@ class Grid {
  private:
   std::size_t size() const { return std::size_t(columns_) * std::size_t(rows_); }
   Vec2 place(int node) const {
-    return node == to_ ? to_mm_ : low_ + Vec2{double(node % columns_), double(node / columns_)} * cell_mm;
+    return node == to_ ? to_mm_ : low_ + Vec2{double(node % columns_), double(node / columns_)} * cell_mm_;
   }
 
   /// Whether the nozzle reaches the node, and none there hangs over what is barred.
@@ -100,9 +111,21 @@ class Grid {
     if (known == 0) {
       const bool is_end = node == from_ || node == to_;
       const bool is_reached = is_end || TravelCost::reaches(nozzle_, place(node));
-      known = is_reached && !cost_.crosses(place(node), place(node), hardly_visible) ? 1 : 2;
+      known = is_reached && is_clear(place(node), is_end ? 0 : cell_mm_) ? 1 : 2;
     }
     return known == 1;
+  }
+  bool is_clear(Vec2 p, double room_mm) const {
+    if (!is_coarse_) return !cost_.crosses(p, p, hardly_visible);
+    const Vec2 x{room_mm, 0}, y{0, room_mm};
+    return !cost_.crosses(p - x, p + x, hardly_visible) && !cost_.crosses(p - y, p + y, hardly_visible);
+  }
+
+  /// Of a mm there.
+  double node_cost(int node) {
+    float& known = node_cost_[std::size_t(node)];
+    if (known == 0) known = float(1 + cost_.over(place(node)));
+    return double(known);
   }
 
   template <class Visit>
@@ -122,11 +145,14 @@ class Grid {
   }
 
   const TravelCost& cost_;
+  double cell_mm_;
+  bool is_coarse_;
   const TravelCost::Nozzle& nozzle_;
   Vec2 from_mm_, to_mm_, low_;
   int columns_ = 0, rows_ = 0;
   int from_ = 0, to_ = 0;
-  std::vector<char> passable_;  // 0: not known yet, 1: yes, 2: no
+  std::vector<char> passable_;    // 0: not known yet, 1: yes, 2: no
+  std::vector<float> node_cost_;  // 0: not known yet
 };
 
 /// Leaves out places that a straight way, as clear, costs no more without.
@@ -153,9 +179,14 @@ bool crosses(const TravelCost& cost, std::span<const Vec2> way) {
 }
 
 std::vector<Vec2> clear_way(const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm, double longest_mm) {
-  Grid grid(cost, extruder, from_mm, to_mm);
-  if (!grid.hangs_together()) return {};
-  const std::vector<Vec2> way = grid.cheapest(longest_mm);
+  Grid coarse(cost, extruder, from_mm, to_mm, coarse_mm);
+  std::vector<Vec2> way;
+  if (coarse.may_hang_together()) way = coarse.cheapest(longest_mm);
+  if (way.empty() || crosses(cost, way)) {
+    Grid fine(cost, extruder, from_mm, to_mm, fine_mm);
+    if (!fine.may_hang_together()) return {};
+    way = fine.cheapest(longest_mm);
+  }
   return way.empty() ? way : pulled(way, cost);
 }
 

@@ -110,6 +110,13 @@ class TravelCost {
   }
   double way(Vec2 a, Vec2 b) const { return straight(a, b).cost; }
 
+  /// Of a mm there, beside the 1 of the way itself; not of_paper.
+  double over(Vec2 p) const {
+    double sum = 0;
+    for (const Nozzle& n : nozzles_) sum += over_cost(weights_, map_.at(p + n.offset_mm), n.extruder);
+    return sum;
+  }
+
   /// Whether a nozzle hangs over foreign plastic of a larger visibility anywhere on the straight way from a to b; what
   /// its cost is summed over can leap over a corner.
   bool crosses(Vec2 a, Vec2 b, double visibility) const {

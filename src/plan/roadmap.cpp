@@ -181,13 +181,14 @@ void add_pathways(const TravelCost& cost, const Box<Vec2>& box, const RoadmapOpt
   }
 }
 
-/// Along walls, for each nozzle.
+/// Along walls, for each nozzle; the more nozzles, and so walls, the further apart.
 void add_wall(const Path& wall, const TravelCost& cost, const RoadmapOptions& options, Nodes& nodes) {
+  const double spacing_mm = options.pathway_mm * double(std::max<std::size_t>(cost.nozzles().size(), 2));
   double rest = 0;
   for (std::size_t i = 0; i < wall.segments(); ++i) {
     const Vec2 a = wall.points[i], b = wall.points[(i + 1) % wall.points.size()];
     const double length = distance(a, b);
-    for (; rest < length; rest += 2 * options.pathway_mm)
+    for (; rest < length; rest += spacing_mm)
       for (const auto& n : cost.nozzles()) nodes.add(lerp(a, b, rest / length) - n.offset_mm);
     rest -= length;
   }

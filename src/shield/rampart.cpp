@@ -106,7 +106,8 @@ Rampart rampart(std::span<const Polygons> outlines, std::span<const double> heig
     parallel_for(int(regions.size()), options.threads, [&](int i) {
       const auto k = std::size_t(i);
       result.walls[k][std::size_t(wall)] = simplified(regions[k], left_out_mm);
-      if (wall + 1 < options.walls) regions[k] = filled(grown(regions[k], options.gap_mm));
+      // What no further wall needs is freed at once: of tall parts all layers are here together.
+      regions[k] = wall + 1 < options.walls ? filled(grown(regions[k], options.gap_mm)) : Polygons{};
     });
   }
   return result;
