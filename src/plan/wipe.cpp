@@ -1,7 +1,7 @@
 #include "plan/wipe.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 #include <optional>
 #include <span>
 
@@ -16,6 +16,37 @@ constexpr double left_over = 0.1;       // of what hangs on tips in the end is t
 constexpr std::size_t paths_ahead = 4;  // to the touch that a pass is for
 constexpr std::size_t most_places = 3;  // of walls that are tried for each nozzle
 constexpr double apart_mm = 4;          // between them
+constexpr double split_mm = 0.5;        // steps by which the first crossing is looked for
+
+/// The carriage's way to a path, up to where it first crosses another colour, and from there on.
+struct Hop {
+  std::vector<Vec2> clear, rest;  // both with both ends; rest is a single place where nothing is crossed
+  double mm = 0, rest_mm = 0;     // of the whole, and of the rest
+};
+
+double length_of(std::span<const Vec2> way) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) sum += distance(way[i], way[i + 1]);
+  return sum;
+}
+
+Hop split(std::vector<Vec2> way, const TravelCost& cost) {
+  Hop hop{.clear = {way.front()}, .rest = {}, .mm = length_of(way)};
+  std::size_t i = 1;
+  for (; i < way.size(); ++i) {
+    const int steps = int(distance(way[i - 1], way[i]) / split_mm) + 1;
+    int step = 1;
+    while (step <= steps && !crosses(cost, std::array{hop.clear.back(), lerp(way[i - 1], way[i], double(step) / steps)}))
+      ++step;
+    const double share = double(step - 1) / steps;
+    if (share > 0) hop.clear.push_back(lerp(way[i - 1], way[i], share));
+    if (share < 1) break;
+  }
+  hop.rest.assign(way.begin() + std::ptrdiff_t(i), way.end());
+  hop.rest.insert(hop.rest.begin(), hop.clear.back());
+  hop.rest_mm = length_of(hop.rest);
+  return hop;
+}
 
 /// Where a nozzle crosses a wall: a road width beyond its centre line.
 struct Place {
@@ -43,7 +74,7 @@ class Wipes {
 
   void find(const OozeModel& model) {
     std::vector<ForecastWalk> before;  // each hop
-    std::vector<std::vector<std::optional<double>>> touched;
+    std::vector<Touches> touched;
     ForecastWalk walk(paths_, cost_, model, options_.hop);
     for (const Path& path : paths_) {
       before.push_back(walk);
@@ -53,15 +84,16 @@ class Wipes {
     next_.assign(cost_.nozzles().size(), {});
     for (std::size_t k = paths_.size(); k-- > 1;) {
       remember(touched[k], k);
-      if (!is_auxiliary(paths_[k].road().role)) improve(k, before[k]);
+      improve(k, before[k]);
     }
   }
 
  private:
+  using Touches = std::vector<std::optional<ForecastWalk::Touch>>;
   /// Where a nozzle next leaves what it carries.
   struct Next {
-    double visibility = 0;  // of foreign plastic
-    std::size_t path = 0;
+    ForecastWalk::Touch touch;
+    std::size_t path = 0;  // on the way to it, or beside it
   };
   struct Candidate {
     double most_mm3 = 0;  // that it can bring
@@ -69,21 +101,23 @@ class Wipes {
     Place place;
   };
 
-  void remember(const std::vector<std::optional<double>>& touched, std::size_t k) {
+  void remember(const Touches& touched, std::size_t k) {
     for (std::size_t n = 0; n < touched.size(); ++n)
       if (touched[n]) next_[n] = {*touched[n], k};
   }
 
   /// The hop to path k by way of a wall, if one is worth it.
   void improve(std::size_t k, const ForecastWalk& before) {
-    const std::vector<Candidate> candidates = candidates_of(k, before);
+    if (!may_bring(k, before)) return;
+    const Hop hop = hop_to(k, before);
+    const std::vector<Candidate> candidates = candidates_of(k, before, hop);
     if (candidates.empty()) return;
     std::size_t last = k;
     for (const Candidate& c : candidates) last = std::max(last, next_[c.nozzle].path);
     double best = spoilt(k, last, before, paths_[k].travel) - least_mm3;
     std::optional<std::vector<Vec2>> best_travel;
     for (const Candidate& c : candidates) {
-      std::optional<std::vector<Vec2>> travel = travel_by(k, before, c);
+      std::optional<std::vector<Vec2>> travel = travel_by(k, hop, c);
       if (!travel) continue;
       const double with = spoilt(k, last, before, *travel);
       if (with >= best) continue;
@@ -109,20 +143,37 @@ class Wipes {
     return sum;
   }
 
+  /// What the nozzle carries on the hop to path k and next leaves on another colour, x visibility.
+  double brought_mm3(std::size_t n, std::size_t k, const ForecastWalk& before) const {
+    const Next& next = next_[n];
+    if (next.path > k + paths_ahead) return 0;
+    return next.touch.visibility * (next.path == k ? next.touch.brought_mm3 : before.states()[n].carried_mm3);
+  }
+  bool may_bring(std::size_t k, const ForecastWalk& before) const {
+    for (std::size_t n = 0; n < next_.size(); ++n)
+      if (brought_mm3(n, k, before) >= least_mm3) return true;
+    return false;
+  }
+
+  Hop hop_to(std::size_t k, const ForecastWalk& before) const {
+    std::vector<Vec2> way{*before.carriage_mm()};
+    for (const Vec2 p : paths_[k].travel) way.push_back(p - offset_of(k));
+    way.push_back(paths_[k].start() - offset_of(k));
+    return split(std::move(way), cost_);
+  }
+
   /// Places by which a pass may be worth its time, whatever the forecast says of it.
-  std::vector<Candidate> candidates_of(std::size_t k, const ForecastWalk& before) const {
-    const Vec2 from = *before.carriage_mm(), to = paths_[k].start() - offset_of(k);
-    const double hop_mm = travel_mm(from + offset_of(k), paths_[k]);
+  std::vector<Candidate> candidates_of(std::size_t k, const ForecastWalk& before, const Hop& hop) const {
     std::vector<Candidate> result;
     for (std::size_t n = 0; n < next_.size(); ++n) {
-      if (next_[n].path > k + paths_ahead) continue;
-      const double carried_mm3 = before.states()[n].carried_mm3 * next_[n].visibility;
-      if (carried_mm3 < least_mm3) continue;
+      const double smear_mm3 = brought_mm3(n, k, before);
+      if (smear_mm3 < least_mm3) continue;
       const Vec2 offset = cost_.nozzles()[n].offset_mm;
-      for (const Place& place : places_between(from + offset, to + offset, k, hop_mm + farthest_mm)) {
-        const double more_s = options_.hop.seconds(place.way_mm) - options_.hop.seconds(hop_mm);
+      const double most_mm = hop.mm - hop.rest_mm + farthest_mm;
+      for (const Place& place : places_between(hop.clear.front() + offset, hop.clear.back() + offset, k, most_mm)) {
+        const double more_s = options_.hop.seconds(place.way_mm + hop.rest_mm) - options_.hop.seconds(hop.mm);
         // More comes out on the way to the wall, and all that stays there.
-        const double most_mm3 = 1.5 * carried_mm3 - options_.s_mm3 * more_s;
+        const double most_mm3 = 1.5 * smear_mm3 - options_.s_mm3 * more_s;
         if (most_mm3 > least_mm3) result.push_back({most_mm3, n, place});
       }
     }
@@ -151,15 +202,16 @@ class Wipes {
   }
 
   /// Path::travel by way of the place; nothing where that crosses another colour.
-  std::optional<std::vector<Vec2>> travel_by(std::size_t k, const ForecastWalk& before, const Candidate& c) const {
-    const Vec2 from = *before.carriage_mm(), to = paths_[k].start() - offset_of(k);
+  std::optional<std::vector<Vec2>> travel_by(std::size_t k, const Hop& hop, const Candidate& c) const {
     const Vec2 by = c.place.at_mm - cost_.nozzles()[c.nozzle].offset_mm;
-    std::vector<Vec2> way = way_to(k, from, by);
-    const std::vector<Vec2> on = way_to(k, by, to);
+    std::vector<Vec2> way = way_to(k, hop.clear.front(), by);
+    const std::vector<Vec2> on = way_to(k, by, hop.clear.back());
     way.insert(way.end(), on.begin() + 1, on.end());
+    if (crosses(cost_, way)) return std::nullopt;
+    way.insert(way.end(), hop.rest.begin() + 1, hop.rest.end());
     std::vector<Vec2> travel(way.begin() + 1, way.end() - 1);
     const auto is_reached = [&](Vec2 p) { return TravelCost::reaches(nozzle_of(k), p); };
-    if (crosses(cost_, way) || !std::ranges::all_of(travel, is_reached)) return std::nullopt;
+    if (!std::ranges::all_of(travel, is_reached)) return std::nullopt;
     for (Vec2& p : travel) p = p + offset_of(k);
     return travel;
   }
