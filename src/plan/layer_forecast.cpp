@@ -11,7 +11,7 @@ constexpr auto nobody = std::size_t(-1);
 }  // namespace
 
 ForecastWalk::ForecastWalk(const TravelCost& cost, const OozeModel& model, const HopTime& hop)
-    : cost_(&cost), model_(&model), hop_(hop), states_(cost.nozzles().size()), touched_(cost.nozzles().size()) {}
+    : cost_(&cost), model_(&model), hop_(hop), states_(cost.nozzles().size()), touches_(cost.nozzles().size()) {}
 
 ForecastWalk::ForecastWalk(std::span<const Path> paths, const TravelCost& cost, const OozeModel& model,
                            const HopTime& hop)
@@ -25,7 +25,7 @@ ForecastWalk::ForecastWalk(std::span<const Path> paths, const TravelCost& cost, 
 }
 
 void ForecastWalk::print(const Path& path, std::span<const Vec2> way) {
-  std::ranges::fill(touched_, std::nullopt);
+  std::ranges::fill(touches_, Touches{});
   arrived_mm3_.clear();
   const auto is_it = [&](const TravelCost::Nozzle& n) { return n.extruder == path.extruder; };
   const auto nozzle = std::size_t(std::ranges::find_if(cost_->nozzles(), is_it) - cost_->nozzles().begin());
@@ -76,7 +76,7 @@ void ForecastWalk::begin(std::size_t nozzle, const Path& path) {
         model_->volume_mm3 * (1 - states_[nozzle].left) * visibility_ahead(path, 0, path.start(), cost_->map());
   arrived_mm3_.clear();
   for (const IdleState& state : states_) arrived_mm3_.push_back(state.carried_mm3);
-  touch(nozzle, 0, 0);
+  touch(nozzle, 0);
   states_[nozzle] = {};
 }
 
@@ -89,12 +89,17 @@ void ForecastWalk::ooze(std::size_t n, Vec2 at_mm, double left) {
   const bool wipes = cell.wall != 0 && (standing_ >> std::min(cell.wall - 1, 63) & 1) != 0;
   if (smears) result_.smear_mm3 += state.carried_mm3 * cell.visibility / 255.;
   if (!wipes && cell.extruder == LayerMap::air) return;
-  touch(n, smears ? cell.visibility / 255. : 0, state.carried_mm3);
-  state.carried_mm3 = 0;
+  touch(n, smears ? cell.visibility / 255. : 0);
 }
 
-void ForecastWalk::touch(std::size_t nozzle, double visibility, double mm3) {
-  if (!touched_[nozzle]) touched_[nozzle] = {visibility, arrived_mm3_.empty() ? mm3 : arrived_mm3_[nozzle]};
+/// It leaves what it carries.
+void ForecastWalk::touch(std::size_t nozzle, double visibility) {
+  Touches& t = touches_[nozzle];
+  if (!t.first) t.first = visibility;
+  const bool on_way = arrived_mm3_.empty();
+  t.brought_mm3 += visibility * (on_way ? states_[nozzle].carried_mm3 : arrived_mm3_[nozzle]);
+  if (!on_way) arrived_mm3_[nozzle] = 0;
+  states_[nozzle].carried_mm3 = 0;
 }
 
 LayerForecast layer_forecast(std::span<const Path> paths, const TravelCost& cost, const OozeModel& model,

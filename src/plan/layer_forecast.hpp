@@ -44,13 +44,14 @@ class ForecastWalk {
   const std::vector<IdleState>& states() const { return states_; }
   const std::optional<Vec2>& carriage_mm() const { return carriage_; }
 
-  /// Where a nozzle left what it carried.
-  struct Touch {
-    double visibility = 0;   // of foreign plastic, 0 to 1; 0: elsewhere, as where it began to print itself
-    double brought_mm3 = 0;  // that it carried there, or where the way ended, whichever was first
+  /// What one nozzle did on the last way and path printed.
+  struct Touches {
+    /// How visible the foreign plastic was on which it first left what it carried; 0: it left it elsewhere, as where it
+    /// began to print itself; nothing: nowhere.
+    std::optional<double> first;
+    double brought_mm3 = 0;  // x visibility, smeared on the way, and of what it carried there beside the path
   };
-  /// Of each nozzle the first on the last way and path printed; nothing: it left nothing.
-  const std::vector<std::optional<Touch>>& first_touches() const { return touched_; }
+  const std::vector<Touches>& touches() const { return touches_; }
 
  private:
   ForecastWalk(const TravelCost& cost, const OozeModel& model, const HopTime& hop);
@@ -58,14 +59,14 @@ class ForecastWalk {
   void go(Vec2 from, Vec2 to, double seconds, std::size_t printing);
   void begin(std::size_t nozzle, const Path& path);
   void ooze(std::size_t nozzle, Vec2 at_mm, double left);
-  void touch(std::size_t nozzle, double visibility, double mm3);
+  void touch(std::size_t nozzle, double visibility);
 
   const TravelCost* cost_;
   const OozeModel* model_;
   HopTime hop_;
   std::vector<IdleState> states_;
-  std::vector<std::optional<Touch>> touched_;
-  std::vector<double> arrived_mm3_;  // of each nozzle, where the last way ended; empty on the way
+  std::vector<Touches> touches_;
+  std::vector<double> arrived_mm3_;  // with each nozzle where the last way ended, still on it; empty on the way
   std::optional<Vec2> carriage_;
   std::uint64_t standing_ = 0;  // walls of the map, by bit
   int walls_ = 0;

@@ -16,6 +16,7 @@ constexpr double left_over = 0.1;       // of what hangs on tips in the end is t
 constexpr std::size_t paths_ahead = 4;  // to the touch that a pass is for
 constexpr std::size_t most_places = 3;  // of walls that are tried for each nozzle
 constexpr double apart_mm = 4;          // between them
+constexpr double way_share = 0.1;       // that a mm of way counts beside one from the wall to the touch
 constexpr double split_mm = 0.5;        // steps by which the first crossing is looked for
 
 /// The carriage's way to a path, up to where it first crosses another colour, and from there on.
@@ -52,19 +53,22 @@ Hop split(std::vector<Vec2> way, const TravelCost& cost) {
 struct Place {
   Vec2 at_mm;
   double way_mm = 0;  // from and to where the nozzle goes, by this place
+  double on_mm = 0;   // of it from here on
 };
 
-/// Beyond a segment of a wall, where the way from p to q by it is shortest.
-Place beyond(Vec2 a, Vec2 b, double by_mm, Vec2 p, Vec2 q) {
+/// Beyond a segment of a wall: where the way from p to q by it is shortest, and where it is nearest to q.
+std::array<Place, 2> beyond(Vec2 a, Vec2 b, double by_mm, Vec2 p, Vec2 q) {
   const double length = std::max(distance(a, b), 1e-9);
   const Vec2 along = (b - a) * (1 / length), across{-along.y, along.x};
   const double p_off = dot(p - a, across), q_off = dot(q - a, across);
   // Straight to the mirror image of q, or to q on the other side.
   const double sum = std::max(std::abs(p_off) + std::abs(q_off), 1e-9);
   const double p_along = dot(p - a, along), q_along = dot(q - a, along);
-  const double t = std::clamp(p_along + (q_along - p_along) * std::abs(p_off) / sum, 0., length);
-  const Vec2 at = a + along * t + across * (p_off > 0 ? -by_mm : by_mm);
-  return {at, distance(p, at) + distance(at, q)};
+  const auto place = [&](double t) {
+    const Vec2 at = a + along * std::clamp(t, 0., length) + across * (p_off > 0 ? -by_mm : by_mm);
+    return Place{at, distance(p, at) + distance(at, q), distance(at, q)};
+  };
+  return {place(p_along + (q_along - p_along) * std::abs(p_off) / sum), place(q_along)};
 }
 
 class Wipes {
@@ -74,25 +78,24 @@ class Wipes {
 
   void find(const OozeModel& model) {
     std::vector<ForecastWalk> before;  // each hop
-    std::vector<Touches> touched;
+    std::vector<std::vector<ForecastWalk::Touches>> touches;
     ForecastWalk walk(paths_, cost_, model, options_.hop);
     for (const Path& path : paths_) {
       before.push_back(walk);
       walk.print(path);
-      touched.push_back(walk.first_touches());
+      touches.push_back(walk.touches());
     }
     next_.assign(cost_.nozzles().size(), {});
     for (std::size_t k = paths_.size(); k-- > 1;) {
-      remember(touched[k], k);
+      remember(touches[k], k);
       improve(k, before[k]);
     }
   }
 
  private:
-  using Touches = std::vector<std::optional<ForecastWalk::Touch>>;
   /// Where a nozzle next leaves what it carries.
   struct Next {
-    ForecastWalk::Touch touch;
+    ForecastWalk::Touches touches;
     std::size_t path = 0;  // on the way to it, or beside it
   };
   struct Candidate {
@@ -101,9 +104,9 @@ class Wipes {
     Place place;
   };
 
-  void remember(const Touches& touched, std::size_t k) {
-    for (std::size_t n = 0; n < touched.size(); ++n)
-      if (touched[n]) next_[n] = {*touched[n], k};
+  void remember(const std::vector<ForecastWalk::Touches>& touches, std::size_t k) {
+    for (std::size_t n = 0; n < touches.size(); ++n)
+      if (touches[n].first) next_[n] = {touches[n], k};
   }
 
   /// The hop to path k by way of a wall, if one is worth it.
@@ -128,7 +131,7 @@ class Wipes {
     paths_[k].travel = std::move(*best_travel);
     ForecastWalk walk = before;
     walk.print(paths_[k]);
-    remember(walk.first_touches(), k);
+    remember(walk.touches(), k);
   }
 
   /// What is spoilt and lost from before path `first` to the end of path `last`, in mm3 of smear.
@@ -147,7 +150,8 @@ class Wipes {
   double brought_mm3(std::size_t n, std::size_t k, const ForecastWalk& before) const {
     const Next& next = next_[n];
     if (next.path > k + paths_ahead) return 0;
-    return next.touch.visibility * (next.path == k ? next.touch.brought_mm3 : before.states()[n].carried_mm3);
+    if (next.path == k) return next.touches.brought_mm3;
+    return next.touches.first.value_or(0) * before.states()[n].carried_mm3;
   }
   bool may_bring(std::size_t k, const ForecastWalk& before) const {
     for (std::size_t n = 0; n < next_.size(); ++n)
@@ -186,12 +190,13 @@ class Wipes {
     for (const Path& wall : paths_.first(k)) {
       if (wall.road().role != Role::rampart) continue;
       for (std::size_t i = 0; i < wall.segments(); ++i) {
-        const Place place =
-            beyond(wall.points[i], wall.points[(i + 1) % wall.points.size()], wall.road().width_mm, p, q);
-        if (place.way_mm <= most_mm) found.push_back(place);
+        const Vec2 a = wall.points[i], b = wall.points[(i + 1) % wall.points.size()];
+        for (const Place& place : beyond(a, b, wall.road().width_mm, p, q))
+          if (place.way_mm <= most_mm) found.push_back(place);
       }
     }
-    std::ranges::stable_sort(found, {}, &Place::way_mm);
+    // What comes out on the way from the wall counts more than the time of the whole.
+    std::ranges::stable_sort(found, {}, [](const Place& place) { return place.on_mm + way_share * place.way_mm; });
     std::vector<Place> result;
     for (const Place& place : found) {
       const auto is_near = [&](const Place& other) { return distance(place.at_mm, other.at_mm) < apart_mm; };
