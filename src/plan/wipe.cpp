@@ -17,35 +17,50 @@ constexpr std::size_t paths_ahead = 4;  // to the touch that a pass is for
 constexpr std::size_t most_places = 3;  // of walls that are tried for each nozzle
 constexpr double apart_mm = 4;          // between them
 constexpr double way_share = 0.1;       // that a mm of way counts beside one from the wall to the touch
-constexpr double split_mm = 0.5;        // steps by which the first crossing is looked for
+constexpr double cut_mm = 0.5;          // steps by which crossings are told from what is clear
+constexpr double shortest_mm = 2;       // clear stretch between two crossings
 
-/// The carriage's way to a path, up to where it first crosses another colour, and from there on.
-struct Hop {
-  std::vector<Vec2> clear, rest;  // both with both ends; rest is a single place where nothing is crossed
-  double mm = 0, rest_mm = 0;     // of the whole, and of the rest
+/// A piece of a way on which no nozzle hangs over another colour.
+struct ClearStretch {
+  std::size_t first = 0, last = 0;  // places of the way
+  double mm = 0;
 };
 
-double length_of(std::span<const Vec2> way) {
-  double sum = 0;
-  for (std::size_t i = 0; i + 1 < way.size(); ++i) sum += distance(way[i], way[i + 1]);
-  return sum;
+/// The carriage's way to a path.
+struct Hop {
+  std::vector<Vec2> way;  // with both ends, and the places where a crossing of another colour begins or ends
+  double mm = 0;
+  std::vector<ClearStretch> clear;
+};
+
+/// The way, cut where crossings begin and end; of the crossings, whether the segment to each place is part of one.
+std::vector<Vec2> cut(std::span<const Vec2> way, const TravelCost& cost, std::vector<char>& crossing) {
+  std::vector<Vec2> result{way.front()};
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const Vec2 a = way[i - 1], b = way[i];
+    const bool any = crosses(cost, std::array{a, b});
+    const int steps = any ? int(distance(a, b) / cut_mm) + 1 : 1;
+    for (int k = 1; k <= steps; ++k) {
+      const Vec2 p = lerp(a, b, double(k) / steps);
+      const bool is_crossing = any && crosses(cost, std::array{lerp(a, b, double(k - 1) / steps), p});
+      if (k > 1 && is_crossing == bool(crossing.back()))
+        result.back() = p;
+      else
+        result.push_back(p), crossing.push_back(char(is_crossing));
+    }
+  }
+  return result;
 }
 
-Hop split(std::vector<Vec2> way, const TravelCost& cost) {
-  Hop hop{.clear = {way.front()}, .rest = {}, .mm = length_of(way)};
-  std::size_t i = 1;
-  for (; i < way.size(); ++i) {
-    const int steps = int(distance(way[i - 1], way[i]) / split_mm) + 1;
-    int step = 1;
-    while (step <= steps && !crosses(cost, std::array{hop.clear.back(), lerp(way[i - 1], way[i], double(step) / steps)}))
-      ++step;
-    const double share = double(step - 1) / steps;
-    if (share > 0) hop.clear.push_back(lerp(way[i - 1], way[i], share));
-    if (share < 1) break;
+Hop hop_of(std::span<const Vec2> way, const TravelCost& cost) {
+  std::vector<char> crossing{1};  // to the first place leads nothing that is clear
+  Hop hop{.way = cut(way, cost, crossing), .mm = 0, .clear = {}};
+  for (std::size_t i = 0; i < hop.way.size(); ++i) {
+    const double mm = i > 0 ? distance(hop.way[i - 1], hop.way[i]) : 0;
+    hop.mm += mm;
+    if (i == 0 || (crossing[i] == 0 && crossing[i - 1] != 0 && i > 1)) hop.clear.push_back({i == 0 ? 0 : i - 1, i, mm});
+    else if (crossing[i] == 0) hop.clear.back().last = i, hop.clear.back().mm += mm;
   }
-  hop.rest.assign(way.begin() + std::ptrdiff_t(i), way.end());
-  hop.rest.insert(hop.rest.begin(), hop.clear.back());
-  hop.rest_mm = length_of(hop.rest);
   return hop;
 }
 
@@ -102,6 +117,7 @@ class Wipes {
     double most_mm3 = 0;  // that it can bring
     std::size_t nozzle = 0;
     Place place;
+    ClearStretch instead;  // of this stretch of the way
   };
 
   void remember(const std::vector<ForecastWalk::Touches>& touches, std::size_t k) {
@@ -163,7 +179,7 @@ class Wipes {
     std::vector<Vec2> way{*before.carriage_mm()};
     for (const Vec2 p : paths_[k].travel) way.push_back(p - offset_of(k));
     way.push_back(paths_[k].start() - offset_of(k));
-    return split(std::move(way), cost_);
+    return hop_of(way, cost_);
   }
 
   /// Places by which a pass may be worth its time, whatever the forecast says of it.
@@ -173,12 +189,15 @@ class Wipes {
       const double smear_mm3 = brought_mm3(n, k, before);
       if (smear_mm3 < least_mm3) continue;
       const Vec2 offset = cost_.nozzles()[n].offset_mm;
-      const double most_mm = hop.mm - hop.rest_mm + farthest_mm;
-      for (const Place& place : places_between(hop.clear.front() + offset, hop.clear.back() + offset, k, most_mm)) {
-        const double more_s = options_.hop.seconds(place.way_mm + hop.rest_mm) - options_.hop.seconds(hop.mm);
-        // More comes out on the way to the wall, and all that stays there.
-        const double most_mm3 = 1.5 * smear_mm3 - options_.s_mm3 * more_s;
-        if (most_mm3 > least_mm3) result.push_back({most_mm3, n, place});
+      for (const ClearStretch& s : hop.clear) {
+        if (s.first > 0 && s.mm < shortest_mm) continue;
+        const Vec2 p = hop.way[s.first] + offset, q = hop.way[s.last] + offset;
+        for (const Place& place : places_between(p, q, k, s.mm + farthest_mm)) {
+          const double more_s = options_.hop.seconds(hop.mm - s.mm + place.way_mm) - options_.hop.seconds(hop.mm);
+          // More comes out on the way to the wall, and all that stays there.
+          const double most_mm3 = 1.5 * smear_mm3 - options_.s_mm3 * more_s;
+          if (most_mm3 > least_mm3) result.push_back({most_mm3, n, place, s});
+        }
       }
     }
     return result;
@@ -209,11 +228,12 @@ class Wipes {
   /// Path::travel by way of the place; nothing where that crosses another colour.
   std::optional<std::vector<Vec2>> travel_by(std::size_t k, const Hop& hop, const Candidate& c) const {
     const Vec2 by = c.place.at_mm - cost_.nozzles()[c.nozzle].offset_mm;
-    std::vector<Vec2> way = way_to(k, hop.clear.front(), by);
-    const std::vector<Vec2> on = way_to(k, by, hop.clear.back());
+    std::vector<Vec2> way = way_to(k, hop.way[c.instead.first], by);
+    const std::vector<Vec2> on = way_to(k, by, hop.way[c.instead.last]);
     way.insert(way.end(), on.begin() + 1, on.end());
     if (crosses(cost_, way)) return std::nullopt;
-    way.insert(way.end(), hop.rest.begin() + 1, hop.rest.end());
+    way.insert(way.begin(), hop.way.begin(), hop.way.begin() + std::ptrdiff_t(c.instead.first));
+    way.insert(way.end(), hop.way.begin() + std::ptrdiff_t(c.instead.last) + 1, hop.way.end());
     std::vector<Vec2> travel(way.begin() + 1, way.end() - 1);
     const auto is_reached = [&](Vec2 p) { return TravelCost::reaches(nozzle_of(k), p); };
     if (!std::ranges::all_of(travel, is_reached)) return std::nullopt;
