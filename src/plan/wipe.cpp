@@ -10,9 +10,10 @@
 namespace cleancolor {
 namespace {
 
-constexpr double farthest_mm = 30;      // that a way may become longer
-constexpr double least_mm3 = 2e-4;      // of smear that a pass must bring
-constexpr double left_over = 0.1;       // of what hangs on tips in the end is taken to be smeared later
+constexpr double farthest_mm = 30;  // that a way may become longer
+constexpr double least_mm3 = 2e-4;  // of smear that a pass must bring
+constexpr double more_out = 1.5;    // times what would be smeared, more may come out on the way and stay on the wall
+constexpr double left_over = 0.1;   // of what hangs on tips in the end is taken to be smeared later
 constexpr std::size_t paths_ahead = 4;  // to the touch that a pass is for
 constexpr std::size_t most_places = 3;  // of walls that are tried for each nozzle
 constexpr double apart_mm = 4;          // between them
@@ -30,10 +31,11 @@ struct ClearStretch {
 struct Hop {
   std::vector<Vec2> way;  // with both ends, and the places where a crossing of another colour begins or ends
   double mm = 0;
-  std::vector<ClearStretch> clear;
+  std::vector<ClearStretch> clear;  // the first from where the way begins, though it may end there
 };
 
-/// The way, cut where crossings begin and end; of the crossings, whether the segment to each place is part of one.
+/// The way, cut where crossings begin and end. crossing: for each place but the first whether the segment to it is part
+/// of one is added.
 std::vector<Vec2> cut(std::span<const Vec2> way, const TravelCost& cost, std::vector<char>& crossing) {
   std::vector<Vec2> result{way.front()};
   for (std::size_t i = 1; i < way.size(); ++i) {
@@ -53,13 +55,15 @@ std::vector<Vec2> cut(std::span<const Vec2> way, const TravelCost& cost, std::ve
 }
 
 Hop hop_of(std::span<const Vec2> way, const TravelCost& cost) {
-  std::vector<char> crossing{1};  // to the first place leads nothing that is clear
-  Hop hop{.way = cut(way, cost, crossing), .mm = 0, .clear = {}};
-  for (std::size_t i = 0; i < hop.way.size(); ++i) {
-    const double mm = i > 0 ? distance(hop.way[i - 1], hop.way[i]) : 0;
+  std::vector<char> crossing{0};
+  Hop hop{.way = cut(way, cost, crossing), .mm = 0, .clear = {{}}};
+  for (std::size_t i = 1; i < hop.way.size(); ++i) {
+    const double mm = distance(hop.way[i - 1], hop.way[i]);
     hop.mm += mm;
-    if (i == 0 || (crossing[i] == 0 && crossing[i - 1] != 0 && i > 1)) hop.clear.push_back({i == 0 ? 0 : i - 1, i, mm});
-    else if (crossing[i] == 0) hop.clear.back().last = i, hop.clear.back().mm += mm;
+    if (crossing[i] != 0) continue;
+    if (crossing[i - 1] != 0) hop.clear.push_back({.first = i - 1});
+    hop.clear.back().last = i;
+    hop.clear.back().mm += mm;
   }
   return hop;
 }
@@ -114,7 +118,6 @@ class Wipes {
     std::size_t path = 0;  // on the way to it, or beside it
   };
   struct Candidate {
-    double most_mm3 = 0;  // that it can bring
     std::size_t nozzle = 0;
     Place place;
     ClearStretch instead;  // of this stretch of the way
@@ -176,7 +179,7 @@ class Wipes {
   }
 
   Hop hop_to(std::size_t k, const ForecastWalk& before) const {
-    std::vector<Vec2> way{*before.carriage_mm()};
+    std::vector<Vec2> way{options_.stops_mm.empty() ? *before.carriage_mm() : options_.stops_mm[k - 1]};
     for (const Vec2 p : paths_[k].travel) way.push_back(p - offset_of(k));
     way.push_back(paths_[k].start() - offset_of(k));
     return hop_of(way, cost_);
@@ -194,16 +197,14 @@ class Wipes {
         const Vec2 p = hop.way[s.first] + offset, q = hop.way[s.last] + offset;
         for (const Place& place : places_between(p, q, k, s.mm + farthest_mm)) {
           const double more_s = options_.hop.seconds(hop.mm - s.mm + place.way_mm) - options_.hop.seconds(hop.mm);
-          // More comes out on the way to the wall, and all that stays there.
-          const double most_mm3 = 1.5 * smear_mm3 - options_.s_mm3 * more_s;
-          if (most_mm3 > least_mm3) result.push_back({most_mm3, n, place, s});
+          if (more_out * smear_mm3 - options_.s_mm3 * more_s > least_mm3) result.push_back({n, place, s});
         }
       }
     }
     return result;
   }
 
-  /// The shortest ways of a nozzle by walls that stand before path k.
+  /// The best ways of a nozzle from p to q by walls that stand before path k.
   std::vector<Place> places_between(Vec2 p, Vec2 q, std::size_t k, double most_mm) const {
     std::vector<Place> found;
     for (const Path& wall : paths_.first(k)) {

@@ -14,7 +14,8 @@ namespace {
 using namespace test;
 
 // '|' a wall that stands, '0' a block printed by nozzle 0, '1' one printed by nozzle 1; nozzle 1 hangs 40 mm above
-// nozzle 0. While line b is printed, it hovers over the block of nozzle 0; all that oozes out beside line a hangs on it.
+// nozzle 0. While line b is printed, it hovers over the block of nozzle 0; all that oozes out beside line a hangs on
+// it.
 //
 //       y = 40     |   000000
 //                  |
@@ -137,9 +138,9 @@ TEST(Wipe, IsNotMadeWhereTimeCountsMore) {
 TEST(Wipe, IsMadeJustBeforeACrossingThatMustBe) {
   const Polygons box = difference(rectangle({30, 0}, {50, 20}), rectangle({31, 1}, {49, 19}));
   const DrawnLayer drawn({rectangle({-40, 0}, {-30, 20}), box});
-  const std::vector<Path> paths{
-      drawn_path(0, {{27, 2}, {27, 13}}, false, fill_depth, -1, Role::rampart),
-      drawn_path(0, {{-39, 16}, {-31, 16}}, false), drawn_path(0, {{40, 15}, {41, 15}}, false)};
+  const std::vector<Path> paths{drawn_path(0, {{27, 2}, {27, 13}}, false, fill_depth, -1, Role::rampart),
+                                drawn_path(0, {{-39, 16}, {-31, 16}}, false),
+                                drawn_path(0, {{40, 15}, {41, 15}}, false)};
   const LayerMap map = drawn.map(std::span(paths).first(1));
   const TravelCost cost(map, {{0, {0, 0}, {}}, {1, {300, 0}, {}}}, {});
   const HopTime hop{.speed_mm_s = 100, .acceleration_mm_s2 = 1000};
@@ -192,14 +193,13 @@ TEST(Wipe, IsPartOfThePlanUnlessSwitchedOff) {
   for (const bool on : {false, true}) {
     config.wipe_passes = on;
     OrderState state;
-    const PlannedLayer planned({.index = 5, .print_z_mm = 45, .height_mm = 0.2, .paths = scene.paths,
-                                .fan_by_extruder = {}},
-                               state, config,
-                               {.part = {scene.drawn.regions, scene.drawn.outline, scene.drawn.above, 45, 0.4},
-                                .site = {{0}, scene.drawn.outline},
-                                .hanging = {0, 1},
-                                .reach = {}},
-                               scene.drawn.visibility);
+    const PlannedLayer planned(
+        {.index = 5, .print_z_mm = 45, .height_mm = 0.2, .paths = scene.paths, .fan_by_extruder = {}}, state, config,
+        {.part = {scene.drawn.regions, scene.drawn.outline, scene.drawn.above, 45, 0.4},
+         .site = {{0}, scene.drawn.outline},
+         .hanging = {0, 1},
+         .reach = {}},
+        scene.drawn.visibility);
     EXPECT_EQ(planned.layer().paths.size(), scene.paths.size());
     smear_mm3[on] = planned.forecast().smear_mm3;
   }
