@@ -190,6 +190,7 @@ struct Config {
   Planner planner = Planner::clean;
   Effort effort = Effort::normal;
   PrintOrder print_order = PrintOrder::exposure;
+  bool wipe_passes = true;
   RefillMode refill_mode = RefillMode::off;
   double refill_volume_mm3 = 2;         // of each pass, where refill_mode is fixed
   double refill_speed_mm_s = 2;         // of the filament

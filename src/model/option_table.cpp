@@ -176,6 +176,7 @@ constexpr Option table[] = {
   {"planner", print, "Planner", &C::planner, "", 0, 0, "clean: ways that keep nozzles off other colours and starts that cannot be seen; paper: the costs of Clean color to the letter and its print_order; plain: the nearest path next, straight"},
   {"effort", print, "Planner", &C::effort, "", 0, 0, "how long cleaner orders are searched for"},
   {"print_order", print, "Planner", &C::print_order, "", 0, 0, "exposure: the order in which idle nozzles are predicted to smear least; few_changes: all that one extruder can print, nearest first; paper: zone by zone, longer ones first, as in Clean color"},
+  {"wipe_passes", print, "Planner", &C::wipe_passes, "", 0, 0, "before a nozzle is predicted to smear another colour it is taken across a wall of the rampart, where that is worth the time (planner clean)"},
   {"refill_mode", print, "Planner", &C::refill_mode, "", 0, 0, "plastic pushed beside a wall of the rampart; model: what is forecast to be missing, before an outer wall would lack it; fixed: refill_volume on every way along a wall; off: none"},
   {"refill_volume", print, "Planner", &C::refill_volume_mm3, "mm3", 0, 100, "of each pass where refill_mode is fixed"},
   {"refill_speed", print, "Planner", &C::refill_speed_mm_s, "mm/s of filament", 0.1, 50, "at which a refill pushes; the carriage is as fast as that asks, at most 120 mm/s"},

@@ -11,6 +11,7 @@
 #include "plan/joined_loops.hpp"
 #include "plan/refill.hpp"
 #include "plan/tour.hpp"
+#include "plan/wipe.hpp"
 #include "shield/start.hpp"
 
 namespace cleancolor {
@@ -210,6 +211,11 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
     paths[k] = walked(std::move(paths[k]), run.roads, k, visits[k], offset);
   }
   if (!is_paper) find_clear_ways(paths, run);
+  if (config_->wipe_passes && !is_paper && nozzles.size() > 1) {
+    WipeOptions wipes = wipe_options(*config_, paths.front().extruder);
+    for (const Path& path : paths) wipes.stops_mm.push_back(stop_mm(path, *config_) - offset_mm(path));
+    paths = with_wipes(std::move(paths), run.roads, run.cost, {}, wipes);
+  }
   if (config_->refill_mode != RefillMode::off && layer_.index >= config_->refill_skipped_layers)
     paths = with_refills(std::move(paths), run.roads, run.cost, {}, refill_options(*config_, paths.front().extruder));
   if (!first_) first_ = std::make_unique<Run>(std::move(run));
