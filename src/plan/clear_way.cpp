@@ -5,14 +5,15 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 
 namespace cleancolor {
 namespace {
 
 constexpr double hardly_visible = 0.05;
 constexpr double coarse_mm = 0.5, fine_mm = 0.25;
-constexpr double margin_mm = 45;  // around both ends
-constexpr double coarse_hurry = 1.5;  // of the rest of the way: fewer nodes are looked at, a way may be a little dearer
+constexpr double margin_mm = 45;      // around both ends
+constexpr double coarse_hurry = 2.5;  // of the rest of the way: fewer nodes are looked at, a way may be a little dearer
 constexpr double largest_pocket_mm2 = 1500;
 constexpr int nobody = -1;
 
@@ -82,7 +83,9 @@ class Grid {
       if (estimate > cost[i] + hurry * rest_mm(node) + 1e-9) continue;
       for_neighbours(node, [&](int other) {
         const auto k = std::size_t(other);
-        const double edge_mm = distance(place(node), place(other));
+        const bool is_straight = node / columns_ == other / columns_ || node % columns_ == other % columns_;
+        const double edge_mm = node == to_ || other == to_ ? distance(place(node), place(other))
+                                                           : cell_mm_ * (is_straight ? 1 : std::numbers::sqrt2);
         if (cost[i] + edge_mm >= cost[k]) return;
         if (!is_coarse_ && cost_.crosses(place(node), place(other), hardly_visible)) return;
         const double length = way_mm[i] + edge_mm;
@@ -116,9 +119,10 @@ class Grid {
     return known == 1;
   }
   bool is_clear(Vec2 p, double room_mm) const {
-    if (!is_coarse_) return !cost_.crosses(p, p, hardly_visible);
-    const Vec2 x{room_mm, 0}, y{0, room_mm};
-    return !cost_.crosses(p - x, p + x, hardly_visible) && !cost_.crosses(p - y, p + y, hardly_visible);
+    if (cost_.is_barred(p, hardly_visible)) return false;
+    if (!is_coarse_ || room_mm == 0) return true;
+    const auto is_barred = [&](Vec2 aside) { return cost_.is_barred(p + aside * room_mm, hardly_visible); };
+    return std::ranges::none_of(std::array{Vec2{1, 0}, Vec2{-1, 0}, Vec2{0, 1}, Vec2{0, -1}}, is_barred);
   }
 
   /// Of a mm there.

@@ -4,8 +4,8 @@
 // if there is one.
 //
 // The roadmap's way is nearly always clear. Where it is not, for its places leave a gap out or another way costs less,
-// a grid is searched (A*): of 0.5 mm, then of 0.25 mm, which finds every gap. That one end lies in a pocket is known
-// first.
+// a grid is searched (A*): of 0.5 mm, then of 0.25 mm, which finds every gap. That one end lies in a pocket
+// is known first.
 #pragma once
 
 #include <span>

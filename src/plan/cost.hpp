@@ -128,6 +128,14 @@ class TravelCost {
     return std::ranges::any_of(nozzles_, crosses);
   }
 
+  /// Whether a nozzle hangs over foreign plastic of a larger visibility there.
+  bool is_barred(Vec2 p, double visibility) const {
+    return std::ranges::any_of(nozzles_, [&](const Nozzle& n) {
+      const LayerMap::Cell cell = map_.at(p + n.offset_mm);
+      return cell.visibility > visibility * 255 && cell.extruder != n.extruder;
+    });
+  }
+
   /// Of touching foreign plastic of this visibility after a way of so many mm since the last touch: what has oozed out.
   double smear(double foreign, double way_mm) const { return weights_.smear * foreign * way_mm; }
 

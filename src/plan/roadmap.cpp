@@ -93,7 +93,7 @@ class Field {
     nearest_.assign(std::size_t(columns_) * std::size_t(rows_), none);
     for (int y = 0; y < rows_; ++y)
       for (int x = 0; x < columns_; ++x)
-        if (is_barred(cost, place(x, y))) nearest_[index(x, y)] = {x, y};
+        if (cost.is_barred(place(x, y), 0)) nearest_[index(x, y)] = {x, y};
     sweep();
   }
 
@@ -120,14 +120,6 @@ class Field {
  private:
   static constexpr Cell none{-1, -1};
 
-  /// Whether a nozzle that stands here is over visible plastic of another colour.
-  static bool is_barred(const TravelCost& cost, Vec2 p) {
-    for (const auto& n : cost.nozzles()) {
-      const LayerMap::Cell cell = cost.map().at(p + n.offset_mm);
-      if (cell.visibility > 0 && cell.extruder != n.extruder) return true;
-    }
-    return false;
-  }
   std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(columns_) + std::size_t(x); }
   static std::int64_t squared(Cell a, Cell b) {
     const std::int64_t dx = a.x - b.x, dy = a.y - b.y;
