@@ -81,11 +81,14 @@ std::string azimuth_table(const Azimuths& azimuths) {
     table += '\n';
   };
   row("as it is", 0);
-  row("chosen, by exposure", azimuths.best_deg);
+  if (azimuths.tried_deg) row("chosen, by trial", azimuths.tried_deg);
+  row(azimuths.tried_deg ? "by exposure" : "chosen, by exposure", azimuths.best_deg);
   row("by interference", azimuths.least_interference_deg);
   table += fmt::format("\nplastic of the part: {:.1f} mm3\n", azimuths.part_mm3);
   if (std::ranges::max(azimuths.interference_mm3) == 0)
     table += "no idle nozzle meets another colour at any angle\n";
+  else if (azimuths.tried_deg)
+    table += "chosen is where the plans of some layers smear least; no turn where turning brings little\n";
   else if (azimuths.best_deg)
     table += "chosen is the smallest turn that is about as good as the best\n";
   return table;
@@ -96,6 +99,7 @@ std::string azimuth_json(const Azimuths& azimuths) {
     return turn ? nlohmann::ordered_json(*turn) : nlohmann::ordered_json();
   };
   nlohmann::ordered_json json;
+  json["chosen_deg"] = degrees(azimuths.chosen_deg());
   json["best_deg"] = degrees(azimuths.best_deg);
   json["least_interference_deg"] = degrees(azimuths.least_interference_deg);
   json["part_mm3"] = azimuths.part_mm3;

@@ -37,8 +37,8 @@ constexpr const char* azimuth_footer =
     "  cleancolor azimuth ocean.stl land.stl --printer replicator-dual -o azimuth.svg\n"
     "  cleancolor azimuth robot.3mf --printer my.toml --json\n"
     "\n"
-    "--json prints one object: best_deg, least_interference_deg (null where no angle leaves room), part_mm3, and by\n"
-    "whole degrees from 0 to 359 the lists exposure_s, interference_mm3 and fits.\n"
+    "--json prints one object: chosen_deg, best_deg (by exposure), least_interference_deg (null where no angle leaves\n"
+    "room), part_mm3, and by whole degrees from 0 to 359 the lists exposure_s, interference_mm3 and fits.\n"
     "\n";
 
 constexpr const char* slice_footer =

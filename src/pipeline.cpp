@@ -132,7 +132,7 @@ Azimuths azimuths_of(const SliceRequest& request, std::span<const Part> parts, c
   const bool tries = request.config.planner == Planner::clean && is_azimuth_automatic(request, use);
   if (!tries || result.candidates_deg.size() < 2) return result;
   const auto trials = azimuth_trials(layers, use, request.config, result.candidates_deg, {.threads = threads});
-  result.best_deg = cleanest(trials);
+  result.tried_deg = cleanest(trials);
   return result;
 }
 
@@ -366,8 +366,8 @@ Summary slice(const SliceRequest& request, const Progress& progress) {
   Protection protection{.azimuth_deg = request.azimuth_deg.value_or(0), .azimuths = {}, .rampart_g = 0};
   if (is_azimuth_automatic(request, Use(layers))) {
     protection.azimuths = azimuths_of(request, parts, layers, Use(layers));
-    protection.azimuth_deg = protection.azimuths->best_deg.value_or(0);
-    if (!protection.azimuths->best_deg)
+    protection.azimuth_deg = protection.azimuths->chosen_deg().value_or(0);
+    if (!protection.azimuths->chosen_deg())
       progress.warn("the parts stay as they are: at no angle they and their rampart have room; see cleancolor azimuth");
     if (protection.azimuth_deg != 0) {
       place(parts, request.config, {.center_mm = fixed_center(request, parts), .rotate_deg = protection.azimuth_deg},

@@ -66,6 +66,12 @@ struct Azimuths {
   /// Where the exposure has valleys that fit and are at most half again as deep as the deepest, at most four, the
   /// deepest first; and no turn, where it fits.
   std::vector<int> candidates_deg;
+
+  /// The cleanest of them by trial (azimuth_trial.hpp), where that was made.
+  std::optional<int> tried_deg;
+
+  /// By how much the part is turned.
+  std::optional<int> chosen_deg() const { return tried_deg ? tried_deg : best_deg; }
 };
 
 /// Cost: 10 ms for each million mm2 of outlines, then below 0.5 s on two cores, independent of triangles. The same for

@@ -74,8 +74,8 @@ std::string azimuth_svg(const Azimuths& azimuths) {
   Canvas canvas({{-radius - 25, -radius - 60}, {radius + 65, radius + 20}}, 3);
   compass(canvas, azimuths);
   curve(canvas, azimuths.interference_mm3, azimuths.least_interference_deg, 3.5, interference_colour);
-  curve(canvas, azimuths.exposure_s, azimuths.best_deg, 2.2, exposure_colour);
-  legend(canvas, -radius - 28, "exposure", "s", azimuths.exposure_s, azimuths.best_deg, exposure_colour);
+  curve(canvas, azimuths.exposure_s, azimuths.chosen_deg(), 2.2, exposure_colour);
+  legend(canvas, -radius - 28, "exposure", "s", azimuths.exposure_s, azimuths.chosen_deg(), exposure_colour);
   legend(canvas, -radius - 38, "interference", "mm3", azimuths.interference_mm3, azimuths.least_interference_deg,
          interference_colour);
   if (std::ranges::find(azimuths.fits, 0) != azimuths.fits.end()) legend_of_grey(canvas, -radius - 48);

@@ -10,8 +10,8 @@
 namespace cleancolor {
 namespace {
 
-constexpr double hardly_visible = 0.05;
 constexpr double coarse_mm = 0.5, fine_mm = 0.25;
+constexpr double most_nodes = 1.5e6;  // further apart where there would be more
 constexpr double margin_mm = 45;      // around both ends
 constexpr double coarse_hurry = 2.5;  // of the rest of the way: fewer nodes are looked at, a way may be a little dearer
 constexpr double largest_pocket_mm2 = 1500;
@@ -23,17 +23,18 @@ class Grid {
  public:
   Grid(const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm, double cell_mm)
       : cost_(cost),
-        cell_mm_(cell_mm),
         is_coarse_(cell_mm > fine_mm),
         nozzle_(*std::ranges::find(cost.nozzles(), extruder, &TravelCost::Nozzle::extruder)),
         from_mm_(from_mm),
         to_mm_(to_mm) {
-    const auto cells = [=](double mm) { return int(std::ceil(mm / cell_mm)); };
+    const Vec2 box{std::abs(to_mm.x - from_mm.x) + 2 * margin_mm, std::abs(to_mm.y - from_mm.y) + 2 * margin_mm};
+    cell_mm_ = std::max(cell_mm, std::sqrt(box.x * box.y / most_nodes));
+    const auto cells = [&](double mm) { return int(std::ceil(mm / cell_mm_)); };
     const int left = cells(std::max(0., from_mm.x - to_mm.x) + margin_mm);
     const int below = cells(std::max(0., from_mm.y - to_mm.y) + margin_mm);
     columns_ = left + cells(std::max(0., to_mm.x - from_mm.x) + margin_mm) + 1;
     rows_ = below + cells(std::max(0., to_mm.y - from_mm.y) + margin_mm) + 1;
-    low_ = from_mm - Vec2{double(left), double(below)} * cell_mm;
+    low_ = from_mm - Vec2{double(left), double(below)} * cell_mm_;
     from_ = below * columns_ + left;
     const Vec2 to = (to_mm - low_) * (1 / cell_mm_);
     to_ = int(std::lround(to.y)) * columns_ + int(std::lround(to.x));
@@ -149,7 +150,7 @@ class Grid {
   }
 
   const TravelCost& cost_;
-  double cell_mm_;
+  double cell_mm_ = fine_mm;
   bool is_coarse_;
   const TravelCost::Nozzle& nozzle_;
   Vec2 from_mm_, to_mm_, low_;

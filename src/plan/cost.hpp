@@ -30,9 +30,13 @@
 #include <utility>
 #include <vector>
 
+#include "model/config.hpp"
 #include "plan/layer_map.hpp"
 
 namespace cleancolor {
+
+// A visibility that hardly shows.
+inline constexpr double hardly_visible = 0.05;
 
 /// In mm of way.
 struct TravelWeights {
@@ -43,7 +47,20 @@ struct TravelWeights {
   double seam = 300;  // x visibility
   double smear = 20;  // for each mm of way before foreign plastic is touched, x its visibility
   double hole = 100;  // for each mm of way before an outer wall, x visibility of its start
+
+  friend bool operator==(const TravelWeights&, const TravelWeights&) = default;
 };
+
+/// As the options say.
+inline TravelWeights travel_weights(const Config& c) {
+  return {.crossing = c.weight_crossing,
+          .foreign = c.weight_foreign,
+          .own = c.weight_own,
+          .hidden = c.weight_hidden,
+          .seam = c.weight_seam,
+          .smear = c.weight_smear,
+          .hole = c.weight_hole};
+}
 
 /// Of one mm, beside the 1 of the way itself, for one nozzle.
 inline double over_cost(const TravelWeights& w, LayerMap::Cell cell, int nozzle) {
@@ -51,8 +68,7 @@ inline double over_cost(const TravelWeights& w, LayerMap::Cell cell, int nozzle)
   if (cell.visibility == 0) return w.hidden;
   const double v = cell.visibility / 255.;
   if (cell.extruder == nozzle) return w.own * v;
-  // Below 0.05 it hardly shows.
-  return w.crossing * std::min(1., v / 0.05) + w.foreign * v;
+  return w.crossing * std::min(1., v / hardly_visible) + w.foreign * v;
 }
 
 /// The paper's.

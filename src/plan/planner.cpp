@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -39,16 +40,6 @@ constexpr double unlimited_mm = 1e12;
 constexpr double longest_in_extents = 4;  // of ways around another colour
 
 constexpr double start_slack_mm = 60;
-
-TravelWeights travel_weights(const Config& c) {
-  return {.crossing = c.weight_crossing,
-          .foreign = c.weight_foreign,
-          .own = c.weight_own,
-          .hidden = c.weight_hidden,
-          .seam = c.weight_seam,
-          .smear = c.weight_smear,
-          .hole = c.weight_hole};
-}
 
 /// The largest of the part's layer.
 double extent_mm(const LayerScene& part) {
@@ -205,7 +196,8 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
   if (config_->print_order == PrintOrder::exposure && !is_paper)
     visits =
         cleaner_tour(paths, run.roads, run.cost, *config_, std::uint32_t(layer_.index), std::move(visits), options);
-  if (!first_) run.keep_starts(paths, visits, options);
+  // The paper's costs depend on the direction; ways back are not looked at then.
+  if (!first_ && !is_paper) run.keep_starts(paths, visits, options);
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const Vec2 offset = offset_mm(paths[k]);
     paths[k] = walked(std::move(paths[k]), run.roads, k, visits[k], offset);
@@ -225,9 +217,11 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
 void PlannedLayer::arrive_from(const Layer& below) {
   if (!first_ || below.paths.empty()) return;
   const Vec2 from = stop_mm(below.paths.back(), *config_) - offset_mm(below.paths.back());
-  if (!first_->begin.empty())
-    begin_at(cheapest_start(first_->roads, first_->begin.front(), first_->cost, first_->to_go, from));
-  if (config_->planner != Planner::paper) find_clear_ways(std::span(layer_.paths).first(first_->begin.size()), *first_);
+  if (!first_->begin.empty()) {
+    const std::size_t begun_anew =
+        begin_at(cheapest_start(first_->roads, first_->begin.front(), first_->cost, first_->to_go, from));
+    find_clear_ways(std::span(layer_.paths).first(begun_anew), *first_);
+  }
   Path& path = layer_.paths.front();
   const Vec2 to = path.start() - offset_mm(path);
   path.travel = config_->planner == Planner::paper
@@ -236,19 +230,22 @@ void PlannedLayer::arrive_from(const Layer& below) {
   for (Vec2& p : path.travel) p = p + offset_mm(path);
 }
 
-void PlannedLayer::begin_at(std::uint32_t entry) {
+std::size_t PlannedLayer::begin_at(std::uint32_t entry) {
+  assert(layer_.paths.size() >= first_->begin.size());  // no refill among them: there is no wall
   const Run& run = *first_;
   std::uint32_t before = 0;
-  for (std::size_t k = 0; k < run.begin.size() && (k > 0 || entry != run.entries[k]); ++k) {
+  std::size_t k = 0;
+  for (; k < run.begin.size() && (k > 0 || entry != run.entries[k]); ++k) {
     const Path& path = run.begin[k];
     const Visit visit =
         k == 0 ? Visit{.entry = entry, .travel_mm = {}} : visit_from(run.roads, run.begin, run.cost, k, before, entry);
     layer_.paths[k] = walked(path, run.roads, k, visit, offset_mm(path));
     // From here on it is the tour that was planned.
-    if (entry == run.entries[k]) return;
+    if (entry == run.entries[k]) return k + 1;
     before = entry;
     if (k < run.to_go.next.size()) entry = run.to_go.next[k][entry];
   }
+  return k;
 }
 
 Vec2 PlannedLayer::offset_mm(const Path& path) const {

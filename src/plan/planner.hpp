@@ -5,9 +5,11 @@
 //
 //   paths of a layer, what lies where  ->  the same paths in order, begun at their starts, with Path::travel
 //
-// order (plan/plain_order.hpp), then the way through it on a roadmap of the layer (roadmap.hpp, tour.hpp). Layers are
-// planned on their own; the way from one to the next, and the start that suits it, are found when both are known. Takes
-// regions and paths, and never asks where they come from.
+// order (plan/plain_order.hpp), loops joined (joined_loops.hpp), the way through them on a roadmap of the layer
+// (roadmap.hpp, tour.hpp), a cleaner order and its tour (cleaner_tour.hpp), hops found again that still cross another
+// colour (clear_way.hpp), passes that wipe and fill nozzles (wipe.hpp, refill.hpp). Layers are planned on their own; the
+// way from one to the next, and the start that suits it, are found when both are known. Takes regions and paths, and
+// never asks where they come from.
 //
 // Source: Hergel and Lefebvre, Clean color, section 6.
 #pragma once
@@ -55,7 +57,7 @@ class PlannedLayer {
 
  private:
   struct Run;
-  void begin_at(std::uint32_t entry);
+  std::size_t begin_at(std::uint32_t entry);  // how many paths are begun anew
   Vec2 offset_mm(const Path& path) const;
   std::vector<Path> planned(std::vector<Path> paths, const std::vector<int>& nozzles, const PlanScene& scene);
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "plan/clear_way.hpp"
 #include "plan/wall_room.hpp"
 
 namespace cleancolor {
@@ -111,10 +112,20 @@ class Refills {
       return std::nullopt;
     auto refill = laid(*room, mm3, path);
     if (!refill) return std::nullopt;
+    if (crosses_on(before.end() - offset, there, room->points_mm.front() - offset) ||
+        crosses_on(room->points_mm.back() - offset, back, path.start() - offset))
+      return std::nullopt;
     for (const Vec2 c : there.between_mm) refill->travel.push_back(c + offset);
     Pass pass{std::move(*refill), {}};
     for (const Vec2 c : back.between_mm) pass.travel.push_back(c + offset);
     return pass;
+  }
+
+  bool crosses_on(Vec2 from, const PlannedWay& way, Vec2 to) const {
+    std::vector<Vec2> points{from};
+    points.insert(points.end(), way.between_mm.begin(), way.between_mm.end());
+    points.push_back(to);
+    return crosses(cost_, points);
   }
 
   double missing_mm3(double way_mm) const {

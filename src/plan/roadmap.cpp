@@ -19,7 +19,7 @@ constexpr double most_cells = 5e5;    // larger ones where there would be more
 constexpr int samples_a_stretch = 4;
 constexpr double ridge_mm = 2.5;  // nearest shapes this far apart: a way between two
 
-/// Nodes by place: one at each thousandth of a millimetre.
+/// Numbers nodes as they come; those at one place are linked (delaunay).
 class Nodes {
  public:
   explicit Nodes(Roadmap& map) : map_(map) {}

@@ -29,11 +29,26 @@ int nozzle_of(const TravelCost& cost, int extruder) {
   return int(found - all.begin());
 }
 
+using Predecessors = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// nobody: a way begins there.
+std::uint32_t before(const Predecessors& log, std::uint32_t node) {
+  const auto found = std::ranges::lower_bound(log, node, {}, &Predecessors::value_type::first);
+  return found != log.end() && found->first == node ? found->second : nobody;
+}
+
 /// One shortest path search after another over the same nodes.
 class Search {
  public:
   Search(const Roadmap& map, const TravelCost& travel)
-      : map_(map), travel_(travel), cost_(map.nodes_mm.size()), before_(map.nodes_mm.size()) {}
+      : map_(map),
+        travel_(travel),
+        cost_(map.nodes_mm.size(), unreached),
+        way_mm_(cost_.size()),
+        dirty_mm_(cost_.size()),
+        before_(cost_.size(), nobody),
+        extra_(cost_.size()),
+        wanted_(cost_.size(), 0) {}
 
   struct Seed {
     std::uint32_t node = 0;
@@ -43,25 +58,19 @@ class Search {
   enum class Direction { forwards, backwards };
 
   /// Settles nodes from the seeds until all targets have their cost, or are more than `slack` dearer than the best,
-  /// with what entering there costs. Predecessors of what was settled are appended to the log. Only places that the
-  /// nozzle in use reaches, an index of the cost's nozzles, are passed.
+  /// with what entering there costs. Only places that the nozzle in use reaches, an index of the cost's nozzles, are
+  /// passed.
   ///
   /// Backwards, ways lead from the targets to the seeds. What a touch and the begin of a wall cost for the mm before
   /// them is then known at once, and charged mm by mm.
   void run(std::span<const Seed> seeds, std::span<const Seed> targets, int nozzle, double slack,
            Direction direction = Direction::forwards) {
     const bool is_back = direction == Direction::backwards;
-    std::ranges::fill(cost_, unreached);
-    way_mm_.resize(cost_.size());
-    dirty_mm_.resize(cost_.size());
+    forget();
     if (is_back) later_.resize(cost_.size());
-    std::ranges::fill(before_, nobody);
-    std::ranges::fill(wanted_, 0);
-    wanted_.resize(cost_.size());
-    heap_.clear();
     std::size_t open = 0;
-    extra_.resize(cost_.size());
     for (const Seed& t : targets) {
+      known_.push_back(t.node);
       open += wanted_[t.node] == 0;
       extra_[t.node] = wanted_[t.node] == 0 ? t.cost : std::min(extra_[t.node], t.cost);
       wanted_[t.node] = 1;
@@ -109,7 +118,14 @@ class Search {
 
   double cost(std::uint32_t node) const { return cost_[node]; }
   double way_mm(std::uint32_t node) const { return way_mm_[node]; }
-  const std::vector<std::uint32_t>& before() const { return before_; }
+  /// The nodes that ways lead to, and the one before each, by node.
+  Predecessors predecessors() const {
+    Predecessors log;
+    for (const std::uint32_t node : known_)
+      if (before_[node] != nobody) log.emplace_back(node, before_[node]);
+    std::ranges::sort(log);
+    return log;
+  }
   /// Where the way to the node begins.
   std::uint32_t begin_of(std::uint32_t node) const {
     while (before_[node] != nobody) node = before_[node];
@@ -117,9 +133,16 @@ class Search {
   }
 
  private:
+  /// What the search before found.
+  void forget() {
+    for (const std::uint32_t node : known_) cost_[node] = unreached, before_[node] = nobody, wanted_[node] = 0;
+    known_.clear();
+    heap_.clear();
+  }
+
   /// Where places within reach do not hang together.
   void go_straight(std::span<const Seed> seeds, std::span<const Seed> targets) {
-    std::ranges::fill(before_, nobody);
+    for (const std::uint32_t node : known_) before_[node] = nobody;
     for (const Seed& s : seeds) cost_[s.node] = s.cost;
     for (const auto& [t, extra, mm_cost] : targets)
       for (const Seed& s : seeds) {
@@ -134,6 +157,7 @@ class Search {
 
   void offer(std::uint32_t node, double cost, double way_mm, std::uint32_t from) {
     if (cost >= cost_[node]) return;
+    if (cost_[node] == unreached) known_.push_back(node);
     cost_[node] = cost;
     way_mm_[node] = dirty_mm_[node] = way_mm;
     before_[node] = from;
@@ -156,6 +180,7 @@ class Search {
   std::vector<std::uint32_t> before_;
   std::vector<double> extra_;  // of targets: what entering there costs
   std::vector<char> wanted_;
+  std::vector<std::uint32_t> known_;  // nodes that the arrays above say something of
   std::vector<std::pair<double, std::uint32_t>> heap_;
 };
 
@@ -213,10 +238,13 @@ void pull(std::vector<Vec2>& way, const TravelCost& cost) {
 }
 
 /// The way that a search has found to the node; returns where it begins.
-std::uint32_t add_way(Visit& visit, const Roadmap& map, const TravelCost& cost,
-                      const std::vector<std::uint32_t>& before, std::uint32_t node) {
+std::uint32_t add_way(Visit& visit, const Roadmap& map, const TravelCost& cost, const Predecessors& log,
+                      std::uint32_t node) {
   std::vector<Vec2> way{map.nodes_mm[node]};
-  for (; before[node] != nobody; node = before[node]) way.push_back(map.nodes_mm[before[node]]);
+  for (std::uint32_t next = before(log, node); next != nobody; next = before(log, node)) {
+    way.push_back(map.nodes_mm[next]);
+    node = next;
+  }
   std::ranges::reverse(way);
   pull(way, cost);
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {
@@ -247,9 +275,9 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
   std::vector<Visit> visits(paths.size());
   if (paths.empty()) return visits;
   Search search(map, cost);
-  // Of each stage: the cost of each entry with what it costs to enter, and the predecessors of all nodes.
+  // Of each stage: the cost of each entry with what it costs to enter, and how the nodes were reached.
   std::vector<std::vector<double>> entered(paths.size());
-  std::vector<std::vector<std::uint32_t>> before(paths.size());
+  std::vector<Predecessors> reached(paths.size());
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const std::vector<Entry>& entries = map.entries[k];
     std::vector<Search::Seed> seeds;
@@ -263,7 +291,7 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
       targets.push_back({entries[i].node, walk_cost(map, paths, cost, options, k, i)});
     if (k > 0) {
       search.run(seeds, targets, nozzle_of(cost, paths[k].extruder), options.slack_mm);
-      before[k] = search.before();
+      reached[k] = search.predecessors();
     }
     for (std::uint32_t i = 0; i < entries.size(); ++i) {
       double c = options.from_mm ? cost.way(*options.from_mm, map.nodes_mm[entries[i].node]) : 0;
@@ -283,7 +311,7 @@ std::vector<Visit> tour(const Roadmap& map, std::span<const Path> paths, const T
   for (std::size_t k = paths.size(); k-- > 0;) {
     visits[k].entry = entry;
     if (k == 0) break;
-    const std::uint32_t node = add_way(visits[k], map, cost, before[k], map.entries[k][entry].node);
+    const std::uint32_t node = add_way(visits[k], map, cost, reached[k], map.entries[k][entry].node);
     // Of the entries of the path before that are left here, the cheapest.
     std::uint32_t best = nobody;
     for (std::uint32_t i = 0; i < map.entries[k - 1].size(); ++i)
@@ -409,7 +437,7 @@ Visit visit_from(const Roadmap& map, std::span<const Path> paths, const TravelCo
   Search search(map, cost);
   search.run(std::span(&seed, 1), std::span(&target, 1), nozzle_of(cost, paths[k].extruder), 0);
   Visit visit{.entry = entry, .travel_mm = {}};
-  add_way(visit, map, cost, search.before(), target.node);
+  add_way(visit, map, cost, search.predecessors(), target.node);
   // A hop that is short when it is straight is no stop.
   const double ahead = ahead_of(map.entries[k][entry], paths[k]);
   const Vec2 from = map.nodes_mm[seed.node], to = map.nodes_mm[target.node];
@@ -450,7 +478,8 @@ PlannedWay way_between(const Roadmap& map, const TravelCost& cost, int extruder,
       best.cost = search.cost(t.node) + t.cost;
       last = t.node;
     }
-    for (; last != nobody; last = search.before()[last]) best.between_mm.push_back(map.nodes_mm[last]);
+    const Predecessors log = search.predecessors();
+    for (; last != nobody; last = before(log, last)) best.between_mm.push_back(map.nodes_mm[last]);
   }
   std::vector<Vec2>& way = best.between_mm;
   way.push_back(from_mm);

@@ -97,7 +97,8 @@ bool WallRoom::is_usable(const Step& step) const {
   if (std::abs(dot(along, place.direction)) < least_cosine * length(along)) return false;
   const Wall& wall = walls_[place.wall];
   const double all = area_mm2(place);
-  if (all - wall.laid_mm3[std::size_t(place.along_mm)] < least_share * all) return false;
+  const std::size_t stretch = std::min(std::size_t(place.along_mm), wall.laid_mm3.size() - 1);
+  if (all - wall.laid_mm3[stretch] < least_share * all) return false;
   const double clear_mm = widest * wall.path->road().width_mm;
   return is_clear(step.begin_mm, clear_mm) && is_clear(step.end_mm, clear_mm);
 }

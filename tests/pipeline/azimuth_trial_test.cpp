@@ -54,7 +54,10 @@ TEST(AzimuthTrial, OfATurnIsThatOfTheTurnedPart) {
 
 TEST(AzimuthTrial, IsTheSameForAnyNumberOfThreads) {
   const auto one = trials(bar(0), {0, 45}), three = trials(bar(0), {0, 45}, 3);
-  for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].smear_mm3, three[i].smear_mm3);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].smear_mm3, three[i].smear_mm3);
+    EXPECT_EQ(one[i].hole_mm3, three[i].hole_mm3);
+  }
 }
 
 TEST(AzimuthTrial, IsNoTurnWhereThatBringsLittle) {

@@ -51,6 +51,10 @@ TEST(LayerForecast, CountsWhatIsMissingAfterTravelOnlyWhereAnOuterWallBegins) {
   EXPECT_EQ(scene.of({far, wall}).hole_mm3, 0);
 }
 
+TEST(TravelWeights, AreTheOptionsDefaults) {
+  EXPECT_EQ(travel_weights(Config{}), TravelWeights{});
+}
+
 TEST(Touches, OfAJoinedLoopAreThoseOfBothLoopsOneAfterTheOther) {
   const Scene scene;
   Path outer = drawn_path(0, to_mm(rectangle({0, 0}, {12, 6}).front()), true, 0, 0, Role::external_perimeter);
