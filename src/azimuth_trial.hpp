@@ -5,8 +5,8 @@
 //   layers, angles of little exposure  ->  the angle whose plan is predicted to be cleanest
 //
 // The exposure (orient/exposure.hpp) knows neither walls nor order nor travel; of valleys that are about as deep it
-// cannot tell the best. Here the layers stay as they are sliced and the nozzles' offsets are turned against them; without
-// skins, direction of view or translucent plastic, which tell angles apart no better.
+// cannot tell the best. Here the layers stay as they are sliced and the nozzles' offsets are turned against them;
+// without skins, direction of view or translucent plastic, which tell angles apart no better.
 #pragma once
 
 #include <span>

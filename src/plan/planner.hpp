@@ -7,9 +7,9 @@
 //
 // order (plan/plain_order.hpp), loops joined (joined_loops.hpp), the way through them on a roadmap of the layer
 // (roadmap.hpp, tour.hpp), a cleaner order and its tour (cleaner_tour.hpp), hops found again that still cross another
-// colour (clear_way.hpp), passes that wipe and fill nozzles (wipe.hpp, refill.hpp). Layers are planned on their own; the
-// way from one to the next, and the start that suits it, are found when both are known. Takes regions and paths, and
-// never asks where they come from.
+// colour (clear_way.hpp), passes that wipe and fill nozzles (wipe.hpp, refill.hpp). Layers are planned on their own;
+// the way from one to the next, and the start that suits it, are found when both are known. Takes regions and paths,
+// and never asks where they come from.
 //
 // Source: Hergel and Lefebvre, Clean color, section 6.
 #pragma once
