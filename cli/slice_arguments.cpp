@@ -161,7 +161,8 @@ void add_parts(CLI::App& app, SliceTexts& texts) {
 
 void add_output(CLI::App& app, SliceCommand& command) {
   const char* group = "Output";
-  app.add_option("-o,--output", command.output, "G-code file; default: the first mesh file's name with .gcode")
+  app.add_option("-o,--output", command.output,
+                 "G-code file; default: beside the first mesh file, with .gcode for its ending")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--preview", command.preview, "also draw a picture of the coloured parts")

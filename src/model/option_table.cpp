@@ -112,7 +112,7 @@ constexpr Option table[] = {
   {"interface_shells", print, "Layers and walls", &C::interface_shells, "", 0, 0, "solid layers also where another extruder's plastic covers the surface"},
   {"solid_infill_below_area", print, "Layers and walls", &C::solid_infill_below_area_mm2, "mm2", 0, 1e6, "smaller regions are solid"},
   {"seam_position", print, "Layers and walls", &C::seam_position, "", 0, 0, "where loops begin; hidden: where they can be seen least (plain planner: aligned)"},
-  {"join_perimeters", print, "Layers and walls", &C::join_perimeters, "", 0, 0, "outer loops begin and end inside the part: the loop within goes over into them without a stop (planner clean, inner loops first)"},
+  {"join_perimeters", print, "Layers and walls", &C::join_perimeters, "", 0, 0, "outer loops begin and end inside the part: the loop within goes over into them without a stop, and where there is none a short stroke leads in and out (planner clean, inner loops first; instead of seam_gap_distance)"},
   {"seam_gap_distance", print, "Layers and walls", &C::seam_gap_distance, "mm or % of nozzle_diameter", 0, 10, "gap left between the ends of a loop"},
   {"slice_closing_radius", print, "Layers and walls", &C::slice_closing_radius_mm, "mm", 0, 5, "cracks up to twice this wide are closed"},
   {"xy_size_compensation", print, "Layers and walls", &C::xy_size_compensation_mm, "mm", -10, 10, "outlines grow by this much"},
@@ -173,7 +173,7 @@ constexpr Option table[] = {
   {"rampart_max_overhang", print, "Rampart", &C::rampart_max_overhang_deg, "degrees", 0, 80, "how far conforming walls lean over, from the vertical; at most half a line a layer"},
   {"rampart_brim_width", print, "Rampart", &C::rampart_brim_width_mm, "mm", 0, 100, "of the walls in the first layer, so that they stand; 0: none"},
 
-  {"planner", print, "Planner", &C::planner, "", 0, 0, "clean: ways that keep nozzles off other colours and starts that cannot be seen; paper: the costs of Clean color to the letter and its print_order; plain: the nearest path next, straight"},
+  {"planner", print, "Planner", &C::planner, "", 0, 0, "clean: ways that keep nozzles off other colours and starts that cannot be seen; paper: the costs of Clean color to the letter, to compare with and its print_order; plain: the nearest path next, straight"},
   {"effort", print, "Planner", &C::effort, "", 0, 0, "how long cleaner orders are searched for"},
   {"print_order", print, "Planner", &C::print_order, "", 0, 0, "exposure: the order in which idle nozzles are predicted to smear least; few_changes: all that one extruder can print, nearest first; paper: zone by zone, longer ones first, as in Clean color"},
   {"wipe_passes", print, "Planner", &C::wipe_passes, "", 0, 0, "before a nozzle is predicted to smear another colour it is taken across a wall of the rampart, where that is worth the time (planner clean)"},

@@ -261,6 +261,8 @@ Roadmap roadmap(std::span<const Path> paths, const TravelCost& cost, const Roadm
       entries.push_back({.node = nodes.add(path.points.back() - offset), .segment = last, .at_mm = path.points.back()});
     } else if (options.fixed_seams || path.road().role == Role::rampart) {
       entries.push_back({.node = nodes.add(path.start() - offset), .segment = 0, .at_mm = path.start()});
+      const bool leads = options.leads && path.island >= 0 && begins_outer_wall(path);
+      if (leads) entries.back().lead_mm = lead_mm(path, 0, path.start(), loops[{path.extruder, path.island}]);
     } else {
       add_entries(path, offset, cost, options, nodes, loops[{path.extruder, path.island}], entries);
     }
