@@ -10,9 +10,10 @@
 namespace cleancolor {
 namespace {
 
-constexpr double coarse_mm = 0.5, fine_mm = 0.25;
+constexpr double coarse_mm = 0.5, fine_mm = 0.25, finest_mm = 0.08;
+constexpr double near_mm = 8;         // hops that the finest is for, and its margin
 constexpr double most_nodes = 1.5e6;  // further apart where there would be more
-constexpr double margin_mm = 45;      // around both ends
+constexpr double wide_mm = 45;        // around both ends
 constexpr double coarse_hurry = 2.5;  // of the rest of the way: fewer nodes are looked at, a way may be a little dearer
 constexpr double largest_pocket_mm2 = 1500;
 constexpr int nobody = -1;
@@ -21,7 +22,7 @@ constexpr int nobody = -1;
 /// them, and edges between them are judged by their ends alone; fine ones find every gap.
 class Grid {
  public:
-  Grid(const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm, double cell_mm)
+  Grid(const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm, double cell_mm, double margin_mm)
       : cost_(cost),
         is_coarse_(cell_mm > fine_mm),
         nozzle_(*std::ranges::find(cost.nozzles(), extruder, &TravelCost::Nozzle::extruder)),
@@ -184,15 +185,16 @@ bool crosses(const TravelCost& cost, std::span<const Vec2> way) {
 }
 
 std::vector<Vec2> clear_way(const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm, double longest_mm) {
-  Grid coarse(cost, extruder, from_mm, to_mm, coarse_mm);
-  std::vector<Vec2> way;
-  if (coarse.may_hang_together()) way = coarse.cheapest(longest_mm);
-  if (way.empty() || crosses(cost, way)) {
-    Grid fine(cost, extruder, from_mm, to_mm, fine_mm);
-    if (!fine.may_hang_together()) return {};
-    way = fine.cheapest(longest_mm);
-  }
-  return way.empty() ? way : pulled(way, cost);
+  const auto search = [&](double cell_mm, double margin_mm) {
+    Grid grid(cost, extruder, from_mm, to_mm, cell_mm, margin_mm);
+    return grid.may_hang_together() ? grid.cheapest(longest_mm) : std::vector<Vec2>{};
+  };
+  const auto is_clear = [&](const std::vector<Vec2>& way) { return !way.empty() && !crosses(cost, way); };
+  std::vector<Vec2> way = search(coarse_mm, wide_mm);
+  if (!is_clear(way)) way = search(fine_mm, wide_mm);
+  // Both ends within one cell, or a gap that lies between nodes.
+  if (!is_clear(way) && distance(from_mm, to_mm) < near_mm) way = search(finest_mm, near_mm);
+  return is_clear(way) ? pulled(way, cost) : std::vector<Vec2>{};
 }
 
 std::vector<Vec2> clearest_way_between(const Roadmap& map, const TravelCost& cost, int extruder, Vec2 from_mm,
