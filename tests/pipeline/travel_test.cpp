@@ -105,6 +105,13 @@ class Scene {
   std::optional<SurfaceVisibility> visibility_;
 };
 
+bool hangs_over(const TravelCost& cost, Vec2 p) {
+  for (const double x : {-file_mm, 0., file_mm})
+    for (const double y : {-file_mm, 0., file_mm})
+      if (cost.is_barred(p + Vec2{x, y}, visible)) return true;
+  return false;
+}
+
 struct Crossings {
   int all = 0;
   std::vector<std::string> avoidable;  // in words
@@ -123,7 +130,11 @@ Crossings crossings(std::span<const Hop> hops, const Scene& scene) {
     const auto nozzle = std::ranges::find(cost.nozzles(), hop.tool, &TravelCost::Nozzle::extruder);
     const FreeWay wanted{
         .longest_mm = 4 * scene.extent_mm(layer), .visible = visible, .nozzle = int(nozzle - cost.nozzles().begin())};
-    if (free_way(cost, from, to, wanted).empty()) continue;
+    // A nozzle that hangs over another colour where the hop begins or ends, give or take what the file rounds, cannot
+    // help it; nor can a hop within one cell of the grid.
+    if (hangs_over(cost, from) || hangs_over(cost, to)) continue;
+    const std::vector<Vec2> free = free_way(cost, from, to, wanted);
+    if (free.empty() || foreign_on(cost, free) > visible) continue;
     result.avoidable.push_back(fmt::format("layer {}, T{}: from X {:.3f} Y {:.3f} to X {:.3f} Y {:.3f} of the carriage",
                                            layer, hop.tool, from.x, from.y, to.x, to.y));
   }
