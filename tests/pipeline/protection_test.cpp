@@ -248,9 +248,7 @@ TEST_P(ProtectionOfModel, KeepsIdleNozzlesOffAndStaysOnTheBed) {
   for (const char* large : {"dragon-heart", "spot-cow", "two-color-world-50mm"})
     if (std::string(large) == GetParam()) GTEST_SKIP() << "takes a minute under sanitizers; the smaller models do not";
 #endif
-  const auto& all = models();
-  const Model& model =
-      *std::find_if(all.begin(), all.end(), [&](const Model& m) { return std::string(m.name) == GetParam(); });
+  const Model& model = model_named(GetParam());
   const TestFolder folder;
   SliceRequest request = request_for(model, replicator(), folder.path("out.gcode"));
   request.config.rampart = RampartShape::off;

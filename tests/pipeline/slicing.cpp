@@ -1,5 +1,6 @@
 #include "slicing.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "model/assign.hpp"
@@ -67,6 +68,10 @@ std::vector<Model> listed_models() {
 const std::vector<Model>& models() {
   static const std::vector<Model> all = listed_models();
   return all;
+}
+
+const Model& model_named(const std::string& name) {
+  return *std::ranges::find_if(models(), [&](const Model& m) { return name == m.name; });
 }
 
 std::filesystem::path shared_model(const std::string& file) {

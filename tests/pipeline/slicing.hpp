@@ -30,6 +30,8 @@ inline void PrintTo(const Model& model, std::ostream* out) {
 
 /// All models of shared/models/paper and thirdparty.
 const std::vector<Model>& models();
+/// Requires: there is one of that name.
+const Model& model_named(const std::string& name);
 
 std::filesystem::path shared_model(const std::string& file);
 bool shared_models_are_there();

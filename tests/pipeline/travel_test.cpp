@@ -149,9 +149,7 @@ TEST_P(TravelOfModel, CrossesVisibleForeignPlasticOnlyWhereAFineGridFindsNoWay) 
   for (const char* large : {"dragon-heart", "spot-cow", "robot-ice"})
     if (std::string(large) == GetParam()) GTEST_SKIP() << "takes minutes under sanitizers; the smaller models do not";
 #endif
-  const auto& all = models();
-  const Model& model =
-      *std::find_if(all.begin(), all.end(), [&](const Model& m) { return std::string(m.name) == GetParam(); });
+  const Model& model = model_named(GetParam());
   const TestFolder folder;
   SliceRequest request = request_for(model, config_of({.printer = "replicator-dual"}), folder.path("out.gcode"));
   request.azimuth_deg.reset();
