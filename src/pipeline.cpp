@@ -372,6 +372,7 @@ Summary slice(const SliceRequest& request, const Progress& progress) {
     if (protection.azimuth_deg != 0) {
       place(parts, request.config, {.center_mm = fixed_center(request, parts), .rotate_deg = protection.azimuth_deg},
             silent(progress));
+      layers = {};  // so that there are never two
       layers = slices(parts, slice_options(request), silent(progress));
     }
   }
@@ -393,6 +394,7 @@ Summary slice(const SliceRequest& request, const Progress& progress) {
                  .thumbnails = thumbnails(parts, request.config)};
   for (const Part& part : parts)
     if (!info.last_layer[std::size_t(*part.extruder)]) throw too_thin(request, *part.extruder);
+  parts = {};  // the layers are all that is printed
 
   OutputFile file(request.output);
   const double turned_deg = request.placement.rotate_deg + protection.azimuth_deg;
