@@ -145,14 +145,16 @@ View view(const Config& config, double turned_deg) {
 }
 
 /// What light does not pass in each layer; empty where all filaments are opaque.
-std::vector<Polygons> opaque_regions(const Slices& slices, const Config& config) {
+std::vector<PackedPolygons> opaque_regions(const Slices& slices, const Config& config) {
   const auto is_opaque = [](const Extruder& e) { return e.filament_translucency_mm <= 0; };
   if (std::ranges::all_of(config.extruders, is_opaque)) return {};
-  std::vector<Polygons> result;
-  for (const std::vector<Polygons>& regions : slices.regions) {
-    Polygons& opaque = result.emplace_back();
+  std::vector<PackedPolygons> result;
+  for (const std::vector<PackedPolygons>& layer : slices.regions) {
+    const std::vector<Polygons> regions = unpacked(layer);
+    Polygons opaque;
     for (std::size_t e = 0; e < regions.size(); ++e)
       if (is_opaque(config.extruders[e])) opaque.insert(opaque.end(), regions[e].begin(), regions[e].end());
+    result.push_back(opaque);
   }
   return result;
 }
@@ -190,7 +192,7 @@ class Print {
     for (const Slab& slab : slices.slabs) height_mm.push_back(slab.height_mm);
     for (int e = 0; e < int(config_.extruders.size()); ++e) reach_.push_back(reach(config_, e));
     for (const Extruder& e : config_.extruders) translucency_mm_.push_back(e.filament_translucency_mm);
-    const std::vector<Polygons> opaque = opaque_regions(slices, config_);
+    const std::vector<PackedPolygons> opaque = opaque_regions(slices, config_);
     visibility_.emplace(
         slices.outlines, height_mm,
         SurfaceVisibilityOptions{
@@ -372,6 +374,7 @@ Summary slice(const SliceRequest& request, const Progress& progress) {
     if (protection.azimuth_deg != 0) {
       place(parts, request.config, {.center_mm = fixed_center(request, parts), .rotate_deg = protection.azimuth_deg},
             silent(progress));
+      layers = {};  // so that there are never two
       layers = slices(parts, slice_options(request), silent(progress));
     }
   }
@@ -393,6 +396,7 @@ Summary slice(const SliceRequest& request, const Progress& progress) {
                  .thumbnails = thumbnails(parts, request.config)};
   for (const Part& part : parts)
     if (!info.last_layer[std::size_t(*part.extruder)]) throw too_thin(request, *part.extruder);
+  parts = {};  // the layers are all that is printed
 
   OutputFile file(request.output);
   const double turned_deg = request.placement.rotate_deg + protection.azimuth_deg;

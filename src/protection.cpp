@@ -115,7 +115,7 @@ PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Confi
   alone.conforming = true;
   alone.stands = false;
   const int layers = protected_layers(slices, use, config);
-  std::vector<Polygons> outlines;
+  std::vector<PackedPolygons> outlines;
   std::vector<double> height_mm;
   std::vector<std::size_t> of_layer;
   for (const int k : some_layers) {
@@ -132,8 +132,8 @@ PrintedRampart::PrintedRampart(const Slices& slices, const Use& use, const Confi
 
 void PrintedRampart::require_reach() const {
   const Polygons room = common_reach(config_, use_.extruders);
-  for (const std::vector<Polygons>& walls : rampart_.walls)
-    for (const Polygons& wall : walls) {
+  for (const std::vector<PackedPolygons>& walls : rampart_.walls)
+    for (const Polygons& wall : unpacked(walls)) {
       if (difference(wall, room).empty()) continue;
       const Box<Vec2> walls_mm = bounds_mm(wall), room_mm = bounds_mm(room);
       throw Error(fmt::format(
@@ -147,7 +147,7 @@ void PrintedRampart::require_reach() const {
 
 std::vector<Path> PrintedRampart::paths(int layer) const {
   if (layer >= int(rampart_.walls.size())) return {};
-  const std::vector<Polygons>& walls = rampart_.walls[std::size_t(layer)];
+  const std::vector<Polygons> walls = unpacked(rampart_.walls[std::size_t(layer)]);
   const Slab& slab = slices_.slabs[std::size_t(layer)];
   const auto& regions = slices_.regions[std::size_t(layer)];
   // Whoever prints here anyway, else one whose nozzle is still hot.
@@ -195,11 +195,10 @@ std::vector<std::vector<int>> printing_by_layer(const Slices& slices) {
 
 PlanScene plan_scene(const Slices& slices, const Use& use, const Config& config, const PrintedRampart& rampart,
                      int layer) {
-  static const Polygons nothing;
   const auto k = std::size_t(layer);
-  const Polygons& above = k + 1 < slices.outlines.size() ? slices.outlines[k + 1] : nothing;
+  const Polygons above = k + 1 < slices.outlines.size() ? Polygons(slices.outlines[k + 1]) : Polygons{};
   const double width_mm = roads(config, use.extruders.front(), layer, slices.slabs[k]).external_perimeter.width_mm;
-  return {.part = {slices.regions[k], slices.outlines[k], above, slices.slabs[k].print_z_mm, width_mm},
+  return {.part = {unpacked(slices.regions[k]), slices.outlines[k], above, slices.slabs[k].print_z_mm, width_mm},
           .site = rampart.site(layer),
           .hanging = config.idle_nozzle == IdleNozzle::same_height ? use.hot(layer, config) : std::vector<int>{},
           .reach = {}};
@@ -215,9 +214,9 @@ Azimuths azimuths_of_print(const Slices& slices, const Use& use, const Config& c
   options.threads = threads;
   const Polygons room = common_reach(config, use.extruders);
   const Vec2 target = center_mm.value_or(bounds_mm(room).center());
-  Polygons all;
-  for (const Polygons& outline : slices.outlines) all.insert(all.end(), outline.begin(), outline.end());
-  const std::vector<Vec2> hull = to_mm(convex_hull(all));
+  Polygons hulls;
+  for (const PackedPolygons& outline : slices.outlines) hulls.push_back(convex_hull(outline));
+  const std::vector<Vec2> hull = to_mm(convex_hull(hulls));
   const double margin_mm = rampart_reach_mm(config, use);
   options.fits = [=](int degrees) {
     std::vector<Vec2> points;

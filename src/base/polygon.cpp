@@ -92,6 +92,7 @@ Ring simplified_ring(const Ring& ring, double tolerance_nm) {
   mark_kept(open, x, y, tolerance_nm, 0, middle, kept);
   mark_kept(open, x, y, tolerance_nm, middle, open.size() - 1, kept);
   Ring result;
+  result.reserve(std::size_t(std::count(kept.begin(), kept.end() - 1, 1)));
   for (std::size_t i = 0; i + 1 < open.size(); ++i)
     if (kept[i]) result.push_back(open[i]);
   return result;
@@ -232,17 +233,6 @@ Box<Vec2> bounds_mm(const Polygons& region) {
   Box<Vec2> box;
   for (const Ring& ring : region)
     for (const Point& p : ring) box.add(to_mm(p));
-  return box;
-}
-
-Box<Vec2> bounds_mm(std::span<const Polygons> regions) {
-  Box<Vec2> box;
-  for (const Polygons& region : regions) {
-    const Box<Vec2> own = bounds_mm(region);
-    if (own.empty()) continue;
-    box.add(own.min);
-    box.add(own.max);
-  }
   return box;
 }
 

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <polyclipping/clipper.hpp>
-#include <span>
 #include <vector>
 
 #include "base/vec.hpp"
@@ -70,8 +69,7 @@ double area_mm2(const Polygons& region);
 double length_mm(const Ring& ring);  // closed
 double length_mm(const Polygons& region);
 Box<Vec2> bounds_mm(const Polygons& region);
-Box<Vec2> bounds_mm(std::span<const Polygons> regions);  // of all
-bool contains(const Polygons& region, Point p);          // the border counts as inside
+bool contains(const Polygons& region, Point p);  // the border counts as inside
 
 Polygons rectangle(Vec2 min_mm, Vec2 max_mm);
 Ring convex_hull(const Polygons& region);

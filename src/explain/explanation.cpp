@@ -45,11 +45,11 @@ Seen seen_around(const GcodePrint& print, std::uint32_t layer, Window window, co
     Polygons& all = outlines[std::size_t(k)];
     for (int n = 0; n < nozzles; ++n) all = united(all, region(roads[std::size_t(k)], n, coarse_mm));
   });
-  std::vector<Polygons> parts;
+  std::vector<PackedPolygons> parts;
   std::vector<double> heights_mm;
   double below_mm = 0, top_mm = 0, z_mm = 0;
   for (std::uint32_t k = window.first; k <= window.last; ++k) {
-    Polygons& outline = outlines[k - window.first];
+    const Polygons& outline = outlines[k - window.first];
     const bool is_it = k == layer;
     if (outline.empty() && !is_it) continue;
     const GcodeLayer& l = print.layers[k];
@@ -58,7 +58,7 @@ Seen seen_around(const GcodePrint& print, std::uint32_t layer, Window window, co
     top_mm += heights_mm.back();
     below_mm = l.z_mm;
     if (is_it) z_mm = top_mm;
-    parts.push_back(std::move(outline));
+    parts.push_back(outline);
   }
   return {SurfaceVisibility(parts, heights_mm, {.reach_mm = options.reach_mm, .threads = options.threads}, progress),
           z_mm};

@@ -102,7 +102,8 @@ Azimuths azimuths(const Slices& slices, const AzimuthOptions& options) {
   if (options.fits)
     for (int a = 0; a < angle_count; ++a) result.fits[std::size_t(a)] = options.fits(a);
   for (std::size_t k = 0; k < slices.slabs.size(); ++k)
-    for (const Polygons& region : slices.regions[k]) result.part_mm3 += area_mm2(region) * slices.slabs[k].height_mm;
+    for (const PackedPolygons& region : slices.regions[k])
+      result.part_mm3 += area_mm2(region) * slices.slabs[k].height_mm;
 
   const std::vector<std::pair<int, int>> all = pairs(slices);
   if (!all.empty()) {

@@ -33,7 +33,7 @@ Interference::Interference(const Slices& slices) {
   for (const Group& g : groups) {
     const auto& regions = slices.regions[(g.first + g.last) / 2];
     Level level{.height_mm = g.height_mm, .own = {}, .foreign = {}};
-    for (const Polygons& region : regions) level.own.emplace_back(region, plan_);
+    for (const PackedPolygons& region : regions) level.own.emplace_back(region, plan_);
     for (std::size_t e = 0; e < regions.size(); ++e) {
       std::vector<const Rows*> others;
       for (std::size_t k = 0; k < regions.size(); ++k)

@@ -22,9 +22,9 @@ namespace cleancolor {
 
 /// One layer of the part.
 struct LayerScene {
-  std::span<const Polygons> regions;             // of each extruder
-  const Polygons& outline;                       // of all
-  const Polygons& above;                         // the outline of the layer above; empty for the last
+  std::vector<Polygons> regions;                 // of each extruder
+  Polygons outline;                              // of all
+  Polygons above;                                // the outline of the layer above; empty for the last
   double z_mm = 0;                               // its top
   double wall_width_mm = 0.4;                    // of the outermost road
   std::span<const double> translucency_mm = {};  // of each extruder's plastic, 0: opaque; empty: all opaque

@@ -71,10 +71,10 @@ Polygons carrying(const Polygons& region, double step_mm) {
 }
 
 /// Regions that each rest on the one below.
-void make_stand(std::vector<Polygons>& regions, const std::vector<double>& step_mm) {
+void make_stand(std::vector<PackedPolygons>& regions, const std::vector<double>& step_mm) {
   const std::size_t count = regions.size();
   for (std::size_t k = count - 1; k-- > 0;)
-    regions[k] = filled(united(regions[k], carrying(regions[k + 1], step_mm[k + 1])));
+    regions[k] = filled(united(regions[k], carrying(Polygons(regions[k + 1]), step_mm[k + 1])));
   for (std::size_t k = 1; k < count; ++k) regions[k] = filled(united(regions[k], grown(regions[k - 1], -step_mm[k])));
 }
 
@@ -85,14 +85,15 @@ double overhang_step_mm(double layer_height_mm, const RampartOptions& options) {
                   options.line_width_mm / 2);
 }
 
-Rampart rampart(std::span<const Polygons> outlines, std::span<const double> height_mm, const RampartOptions& options) {
+Rampart rampart(std::span<const PackedPolygons> outlines, std::span<const double> height_mm,
+                const RampartOptions& options) {
   assert(outlines.size() == height_mm.size() && options.walls > 0);
   Rampart result;
-  result.walls.resize(outlines.size(), std::vector<Polygons>(std::size_t(options.walls)));
+  result.walls.resize(outlines.size(), std::vector<PackedPolygons>(std::size_t(options.walls)));
   if (outlines.empty()) return result;
   std::vector<double> step_mm;
   for (const double h : height_mm) step_mm.push_back(overhang_step_mm(h, options));
-  std::vector<Polygons> regions(outlines.size());
+  std::vector<PackedPolygons> regions(outlines.size());
   parallel_for(int(outlines.size()), options.threads,
                [&](int k) { regions[std::size_t(k)] = around(outlines[std::size_t(k)], options.distance_mm); });
   for (int wall = 0; wall < options.walls; ++wall) {
@@ -100,14 +101,15 @@ Rampart rampart(std::span<const Polygons> outlines, std::span<const double> heig
       if (options.stands) make_stand(regions, step_mm);
     } else if (wall == 0) {
       Polygons all;
-      for (const Polygons& region : regions) all.insert(all.end(), region.begin(), region.end());
-      std::ranges::fill(regions, filled(all));
+      for (const Polygons& region : unpacked(regions)) all.insert(all.end(), region.begin(), region.end());
+      std::ranges::fill(regions, PackedPolygons(filled(all)));
     }
     parallel_for(int(regions.size()), options.threads, [&](int i) {
       const auto k = std::size_t(i);
-      result.walls[k][std::size_t(wall)] = simplified(regions[k], left_out_mm);
+      const Polygons region = regions[k];
+      result.walls[k][std::size_t(wall)] = simplified(region, left_out_mm);
       // What no further wall needs is freed at once: of tall parts all layers are here together.
-      regions[k] = wall + 1 < options.walls ? filled(grown(regions[k], options.gap_mm)) : Polygons{};
+      regions[k] = wall + 1 < options.walls ? filled(grown(region, options.gap_mm)) : Polygons{};
     });
   }
   return result;

@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-#include "base/polygon.hpp"
+#include "base/packed_polygons.hpp"
 
 namespace cleancolor {
 
@@ -40,12 +40,13 @@ double overhang_step_mm(double layer_height_mm, const RampartOptions& options);
 
 struct Rampart {
   /// [layer][wall]: regions without holes, disjoint, whose borders are the centre lines; counterclockwise rings.
-  std::vector<std::vector<Polygons>> walls;
+  std::vector<std::vector<PackedPolygons>> walls;
 };
 
 /// outlines: of the part, one for each layer that the rampart goes up to; height_mm: of each layer.
 /// In each layer no point of a wall is closer than distance_mm to the part; points closer than 0.02 mm to the line
 /// between their neighbours are left out.  Cost: some 2 ms a layer and wall, on one thread.
-Rampart rampart(std::span<const Polygons> outlines, std::span<const double> height_mm, const RampartOptions& options);
+Rampart rampart(std::span<const PackedPolygons> outlines, std::span<const double> height_mm,
+                const RampartOptions& options);
 
 }  // namespace cleancolor

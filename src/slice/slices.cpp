@@ -216,7 +216,7 @@ Slices slices(std::span<const Part> parts, const SliceOptions& options, const Pr
     compensate(regions, options.xy_size_compensation_mm);
     if (k == 0) compensate(regions, -options.elefant_foot_compensation_mm);
     result.outlines[k] = all_of(regions);
-    result.regions[k] = std::move(regions);
+    result.regions[k] = packed(regions);
   });
   parallel_for(int(planes.size()) - 1, options.threads, [&](int below) {
     if (progress.interrupted()) throw Error("interrupted");

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "base/polygon.hpp"
+#include "base/packed_polygons.hpp"
 #include "base/progress.hpp"
 #include "model/config.hpp"
 #include "model/mesh.hpp"
@@ -38,8 +38,8 @@ Polygons cross_section(const Mesh& mesh, double z_mm);
 
 struct Slices {
   std::vector<Slab> slabs;
-  std::vector<std::vector<Polygons>> regions;  // [layer][extruder], disjoint within a layer
-  std::vector<Polygons> outlines;              // [layer], all extruders together
+  std::vector<std::vector<PackedPolygons>> regions;  // [layer][extruder], disjoint within a layer
+  std::vector<PackedPolygons> outlines;              // [layer], all extruders together
 };
 
 /// What is done where parts of different extruders claim the same place.

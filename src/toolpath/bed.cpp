@@ -32,7 +32,7 @@ Polygons outlines(const Polygons& region) {
 
 Polygons first_layer(const Slices& slices) {
   Polygons all;
-  for (const Polygons& region : slices.regions.front()) all.insert(all.end(), region.begin(), region.end());
+  for (const Polygons& region : unpacked(slices.regions.front())) all.insert(all.end(), region.begin(), region.end());
   return outlines(united(all));
 }
 

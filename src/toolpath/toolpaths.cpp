@@ -22,9 +22,8 @@ PerimeterOptions perimeter_options(const Config& config, int extruder) {
 }
 
 /// What covers or carries one extruder's region: the whole layer there, or only its own where interfaces get skins too.
-const Polygons& cover(const Slices& slices, int layer, int extruder, const Config& config) {
-  static const Polygons nothing;
-  if (layer < 0 || layer >= int(slices.slabs.size())) return nothing;
+Polygons cover(const Slices& slices, int layer, int extruder, const Config& config) {
+  if (layer < 0 || layer >= int(slices.slabs.size())) return {};
   return config.interface_shells ? slices.regions[std::size_t(layer)][std::size_t(extruder)]
                                  : slices.outlines[std::size_t(layer)];
 }
@@ -32,7 +31,7 @@ const Polygons& cover(const Slices& slices, int layer, int extruder, const Confi
 /// The part of a region that has nothing below within reach of a road.
 Polygons overhang(const Slices& slices, int layer, const Polygons& region, double nozzle_mm, const Config& config) {
   if (layer == 0 || !config.overhangs) return {};
-  const Polygons& below = slices.outlines[std::size_t(layer) - 1];
+  const Polygons below = slices.outlines[std::size_t(layer) - 1];
   // Most layers lie wholly on the one below: that is cheap to see.
   if (difference(region, below).empty()) return {};
   return difference(region, offset(below, nozzle_mm / 2));
@@ -94,9 +93,11 @@ class Filler {
 
   /// Each gap gets lines that rest at both ends where there is such a direction.
   void bridge(const Polygons& area) {
+    if (area.empty()) return;
+    const Polygons below = below_ ? Polygons(*below_) : Polygons{};
     for (const Island& island : islands(area)) {
       const Polygons piece = polygons(island);
-      const auto angle = below_ ? bridge_angle_rad(difference(piece, *below_), *below_) : std::nullopt;
+      const auto angle = below_ ? bridge_angle_rad(difference(piece, below), below) : std::nullopt;
       add(piece,
           {.angle_rad = angle.value_or(fill_angle_rad(config_, layer_)),
            .spacing_mm = spacing_mm(roads_.bridge_infill)},
@@ -116,7 +117,7 @@ class Filler {
   const Slab& slab_;
   const Roads roads_;
   int layer_;
-  const Polygons* below_ = nullptr;
+  const PackedPolygons* below_ = nullptr;
   std::vector<Path>& paths_;
 };
 
@@ -130,7 +131,7 @@ LayerShells layer_shells(const Slices& slices, int layer, const Config& config) 
   const auto k = std::size_t(layer);
   LayerShells shells(slices.regions[k].size());
   for (std::size_t e = 0; e < shells.size(); ++e) {
-    const Polygons& region = slices.regions[k][e];
+    const Polygons region = slices.regions[k][e];
     if (region.empty()) continue;
     ExtruderShell& shell = shells[e];
     const Roads extruder_roads = roads(config, int(e), layer, slices.slabs[k]);

@@ -30,7 +30,7 @@ void fill(BitWords& bits, const Voxels& v, int level, const Polygons& outline) {
 }
 
 /// Sets the cells of all levels that layers of these heights lie in.
-void fill(BitWords& bits, const Voxels& v, std::span<const Polygons> outlines, std::span<const double> bottom_mm,
+void fill(BitWords& bits, const Voxels& v, std::span<const PackedPolygons> outlines, std::span<const double> bottom_mm,
           int threads, const Progress& progress) {
   std::vector<std::vector<std::size_t>> layers(std::size_t(v.levels));
   for (std::size_t k = 0; k < outlines.size(); ++k) {
@@ -50,7 +50,7 @@ std::vector<double> bottoms_mm(std::span<const double> height_mm) {
   return result;
 }
 
-Voxels voxels_of(std::span<const Polygons> outlines, std::span<const double> height_mm,
+Voxels voxels_of(std::span<const PackedPolygons> outlines, std::span<const double> height_mm,
                  const SurfaceVisibilityOptions& options, const Progress& progress) {
   assert(outlines.size() == height_mm.size());
   const Box<Vec2> box = bounds_mm(outlines);
@@ -65,7 +65,7 @@ Voxels voxels_of(std::span<const Polygons> outlines, std::span<const double> hei
 
 }  // namespace
 
-SurfaceVisibility::SurfaceVisibility(std::span<const Polygons> outlines, std::span<const double> height_mm,
+SurfaceVisibility::SurfaceVisibility(std::span<const PackedPolygons> outlines, std::span<const double> height_mm,
                                      const SurfaceVisibilityOptions& options, const Progress& progress)
     : rays_(voxels_of(outlines, height_mm, options, progress), options.reach_mm, options.threads, progress,
             options.view) {

@@ -19,7 +19,7 @@
 #include <span>
 
 #include "base/open_rays.hpp"
-#include "base/polygon.hpp"
+#include "base/packed_polygons.hpp"
 #include "base/progress.hpp"
 
 namespace cleancolor {
@@ -29,7 +29,8 @@ struct SurfaceVisibilityOptions {
   double reach_mm = 25;
   int threads = 1;
   View view = {};
-  std::span<const Polygons> opaque = {};  // of each layer: where light does not pass; empty: below() is not asked for
+  std::span<const PackedPolygons> opaque =
+      {};  // of each layer: where light does not pass; empty: below() is not asked for
 };
 
 class SurfaceVisibility {
@@ -37,7 +38,7 @@ class SurfaceVisibility {
   /// outlines: of the part, one for each layer from the bed up; height_mm: of each layer.
   /// Cost: 1 ms a layer and 20 ms of CPU for 10^6 voxels of the part's box; memory: up to 100 MB, with options.opaque
   /// 16 more. Same values for any number of threads.  Throws Error where progress is interrupted.
-  SurfaceVisibility(std::span<const Polygons> outlines, std::span<const double> height_mm,
+  SurfaceVisibility(std::span<const PackedPolygons> outlines, std::span<const double> height_mm,
                     const SurfaceVisibilityOptions& options = {}, const Progress& progress = {});
 
   /// At a point on or up to 0.8 mm below the surface; deeper 0, far away from the part 1.  Cost: about 0.2 us.

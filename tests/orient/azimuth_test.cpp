@@ -75,7 +75,7 @@ Slices random_blobs(unsigned seed, int count, int layers) {
       regions.push_back(difference(blob, taken));
       taken = united(taken, blob);
     }
-    slices.regions.push_back(regions);
+    slices.regions.push_back(packed(regions));
     slices.outlines.push_back(taken);
   }
   return slices;

@@ -15,7 +15,7 @@ inline Slices drawn_slices(const std::vector<Polygons>& regions, double height_m
   slices.slabs = slabs(height_mm, layer_mm, layer_mm);
   Polygons all;
   for (const Polygons& region : regions) all.insert(all.end(), region.begin(), region.end());
-  slices.regions.assign(slices.slabs.size(), regions);
+  slices.regions.assign(slices.slabs.size(), packed(regions));
   slices.outlines.assign(slices.slabs.size(), united(all));
   return slices;
 }

@@ -64,12 +64,12 @@ class Scene {
 
   LayerMap map(int layer) const {
     const auto k = std::size_t(layer);
-    const Polygons above = k + 1 < slices_.outlines.size() ? slices_.outlines[k + 1] : Polygons{};
+    const Polygons above = k + 1 < slices_.outlines.size() ? Polygons(slices_.outlines[k + 1]) : Polygons{};
     const double width_mm = roads(config_, use_.extruders.front(), layer, slices_.slabs[k]).external_perimeter.width_mm;
     std::vector<Path> walls = rampart_.paths(layer);
     std::erase_if(walls, [](const Path& path) { return path.road().role != Role::rampart; });
-    return LayerMap({slices_.regions[k], slices_.outlines[k], above, slices_.slabs[k].print_z_mm, width_mm}, walls,
-                    *visibility_);
+    return LayerMap({unpacked(slices_.regions[k]), slices_.outlines[k], above, slices_.slabs[k].print_z_mm, width_mm},
+                    walls, *visibility_);
   }
 
   std::vector<TravelCost::Nozzle> nozzles(int layer) const {

@@ -35,7 +35,7 @@ struct DrawnLayer {
       : regions(std::move(both)),
         outline(united(regions[0], regions[1])),
         above(outline),
-        visibility(std::vector<Polygons>(60, outline), std::vector<double>(60, 1.)) {}
+        visibility(std::vector<PackedPolygons>(60, outline), std::vector<double>(60, 1.)) {}
 
   LayerMap map(std::span<const Path> walls = {}) const {
     return LayerMap({regions, outline, above, 45, 0.4}, walls, visibility);

@@ -39,7 +39,7 @@ TEST(LayerMap, ShowsOuterWallsAndOpenTopsAndNothingElse) {
   EXPECT_EQ(map.at({10.1, 5}).visibility, 0);
   EXPECT_EQ(map.at({13, 5}).visibility, 0) << "below the next layer";
   const DrawnLayer open = two_halves();
-  const std::vector<Polygons> layers{open.outline, open.above};
+  const std::vector<PackedPolygons> layers{open.outline, open.above};
   const SurfaceVisibility sky(layers, std::vector<double>{5., 5.});
   const LayerMap step({open.regions, open.outline, open.above, 5, 0.4}, {}, sky);
   EXPECT_GT(step.at({18, 5}).visibility, 100) << "no layer above";
@@ -62,7 +62,7 @@ TEST(LayerMap, OfNothingIsAir) {
 
 TEST(LayerMap, ShowsWhatLiesInsideTranslucentPlastic) {
   const DrawnLayer layer = two_halves();
-  const std::vector<Polygons> outlines(60, layer.outline), opaque(60, layer.regions[1]);
+  const std::vector<PackedPolygons> outlines(60, layer.outline), opaque(60, layer.regions[1]);
   const SurfaceVisibility visibility(outlines, std::vector<double>(60, 1.), {.view = {}, .opaque = opaque});
   const std::vector<double> translucency_mm{2, 0};
   const LayerMap map({layer.regions, layer.outline, layer.above, 45, 0.4, translucency_mm}, {}, visibility);

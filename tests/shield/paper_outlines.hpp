@@ -12,8 +12,8 @@
 
 namespace cleancolor {
 
-inline std::vector<Polygons> paper_outlines(const std::string& name, const char* first, const char* second,
-                                            double layer_mm) {
+inline std::vector<PackedPolygons> paper_outlines(const std::string& name, const char* first, const char* second,
+                                                  double layer_mm) {
   const auto folder = std::filesystem::path(CLEANCOLOR_SHARED) / "models" / "paper";
   std::vector<Part> parts;
   for (const char* colour : {first, second})

@@ -25,7 +25,7 @@ Polygons disc(Vec2 middle, double radius_mm) {
 }
 
 Rampart rampart_of(const std::vector<Polygons>& outlines, const RampartOptions& options, double height_mm = 0.3) {
-  return rampart(outlines, std::vector<double>(outlines.size(), height_mm), options);
+  return rampart(packed(outlines), std::vector<double>(outlines.size(), height_mm), options);
 }
 
 /// Lines of rings, and whether a point is near one.
@@ -88,7 +88,7 @@ void expect_sound(const std::vector<Polygons>& outlines, const Rampart& rampart,
     ASSERT_EQ(rampart.walls[k].size(), std::size_t(options.walls));
     const Polygons room = offset(outlines[k], options.distance_mm - options.line_width_mm / 2, Corners::round);
     for (std::size_t w = 0; w < rampart.walls[k].size(); ++w) {
-      const Polygons& wall = rampart.walls[k][w];
+      const Polygons wall = rampart.walls[k][w];
       for (const Ring& ring : wall) {
         ASSERT_TRUE(ClipperLib::Orientation(ring)) << "a hole, layer " << k;
         ASSERT_EQ(united({ring}).size(), 1U) << "crosses itself, layer " << k;
@@ -101,7 +101,7 @@ void expect_sound(const std::vector<Polygons>& outlines, const Rampart& rampart,
             << "walls too near to each other, layer " << k;
       }
       if (k == 0) continue;
-      const Polygons& below = rampart.walls[k - 1][w];
+      const Polygons below = rampart.walls[k - 1][w];
       add_hanging(wall, below, overhang_step_mm(height_mm, options) + simplification_mm + rounding_mm, hanging[w]);
       for (const Ring& ring : wall)
         ASSERT_FALSE(intersection({ring}, below).empty()) << "an island begins in mid-air, layer " << k;
@@ -120,7 +120,7 @@ void expect_sound(const std::vector<Polygons>& outlines, const Rampart& rampart,
 double length_of(const Rampart& rampart) {
   double sum = 0;
   for (const auto& walls : rampart.walls)
-    for (const Polygons& wall : walls) sum += length_mm(wall);
+    for (const Polygons& wall : unpacked(walls)) sum += length_mm(wall);
   return sum;
 }
 
@@ -130,8 +130,10 @@ TEST(Rampart, AroundADiscIsADisc) {
   const RampartOptions options;
   const Rampart r = rampart_of(std::vector<Polygons>(5, disc({50, 50}, 10)), options);
   for (const auto& walls : r.walls)
-    for (std::size_t w = 0; w < 2; ++w)
-      for (const Point p : walls[w].front()) EXPECT_NEAR(distance(to_mm(p), {50, 50}), 12.1 + 4. * double(w), 0.1);
+    for (std::size_t w = 0; w < 2; ++w) {
+      const Ring ring = Polygons(walls[w]).front();
+      for (const Point p : ring) EXPECT_NEAR(distance(to_mm(p), {50, 50}), 12.1 + 4. * double(w), 0.1);
+    }
 }
 
 TEST(Rampart, FollowsAConeAndLeavesPlasticOut) {
@@ -223,7 +225,7 @@ TEST_P(RampartOfModel, IsSound) {
     GTEST_SKIP() << "needs the models of " << CLEANCOLOR_SHARED;
   for (const double layer_mm : {0.3, 0.6}) {
     const std::vector<Polygons> outlines =
-        paper_outlines(GetParam().name, GetParam().first, GetParam().second, layer_mm);
+        unpacked(paper_outlines(GetParam().name, GetParam().first, GetParam().second, layer_mm));
     for (const int walls : {2, 3}) {
       RampartOptions options{.walls = walls};
       const Rampart conforming = rampart_of(outlines, options, layer_mm);

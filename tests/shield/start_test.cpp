@@ -135,11 +135,11 @@ TEST(WallStart, FindsAStartThatWipesWhereTheOracleFindsOne) {
   for (const auto& [name, first, second] :
        {std::tuple{"two-color-world-50mm", "ocean", "land"}, std::tuple{"crystal", "white", "black"},
         std::tuple{"dragon-heart", "body", "accent"}, std::tuple{"robot-ice", "robot", "crust"}}) {
-    const std::vector<Polygons> outlines = paper_outlines(name, first, second, 0.3);
+    const std::vector<PackedPolygons> outlines = paper_outlines(name, first, second, 0.3);
     const Rampart r = rampart(outlines, std::vector<double>(outlines.size(), 0.3), {});
     for (std::size_t k = 3; k < outlines.size(); k += 35)
       for (const Vec2 idle : {Vec2{33, 0}, Vec2{-33, 0}, Vec2{12, 20}}) {
-        const Path wall = wall_of(r.walls[k][0].front());
+        const Path wall = wall_of(Polygons(r.walls[k][0]).front());
         const WallScene scene{.idle_mm = {idle}, .part = outlines[k], .standing = {}};
         const Path chosen = begun(wall, wall_start(wall, scene, {0, 0}));
         const double mm = walked_exposure_mm(chosen, scene);

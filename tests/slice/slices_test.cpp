@@ -118,7 +118,7 @@ TEST(Slices, OfTwoColoursThatShareACurvedFaceTouchWithoutGapOrOverlap) {
   const Part parts[] = {part(joined(box_mesh({-15, -15, 0}, {15, 15, 10}), hole), 0), part(peg, 1)};
   const Slices layers = slices(parts, {.extruders = 2});
   for (std::size_t k = 0; k < layers.slabs.size(); ++k) {
-    const auto& regions = layers.regions[k];
+    const std::vector<Polygons> regions = unpacked(layers.regions[k]);
     EXPECT_NEAR(area_mm2(regions[0]) + area_mm2(regions[1]), 900, 1e-6);
     EXPECT_NEAR(area_mm2(intersection(regions[0], regions[1])), 0, 1e-6);
     EXPECT_EQ(layers.outlines[k].size(), 1u);  // no slit between them
@@ -209,7 +209,7 @@ TEST(Slices, CompensationMovesTheOutsideButNotTheBorderBetweenColours) {
   const Part parts[] = {part(box_mesh({0, 0, 0}, {20, 20, 5}), 0), part(box_mesh({20, 0, 0}, {40, 20, 5}), 1)};
   for (const double delta : {0.2, -0.2}) {
     const Slices layers = slices(parts, {.extruders = 2, .xy_size_compensation_mm = delta});
-    const Polygons &left = layers.regions[3][0], &right = layers.regions[3][1];
+    const Polygons left = layers.regions[3][0], right = layers.regions[3][1];
     EXPECT_NEAR(area_mm2(left) + area_mm2(right), (40 + 2 * delta) * (20 + 2 * delta), 1e-6);
     EXPECT_NEAR(area_mm2(intersection(left, right)), 0, 1e-9);
     const Polygons middle = rectangle({19, 9}, {21, 11});

@@ -59,7 +59,7 @@ inline Slices slices_of(const std::vector<std::vector<Polygons>>& regions, doubl
   Slices slices;
   for (std::size_t k = 0; k < regions.size(); ++k) {
     slices.slabs.push_back({height_mm * double(k + 1), height_mm});
-    slices.regions.push_back(regions[k]);
+    slices.regions.push_back(packed(regions[k]));
     Polygons all;
     for (const Polygons& region : regions[k]) all = united(all, region);
     slices.outlines.push_back(all);

@@ -10,7 +10,7 @@ namespace {
 
 SurfaceVisibility of(const std::vector<Polygons>& layers, double voxel_mm = 0.5, int threads = 2) {
   const std::vector<double> heights(layers.size(), 0.2);
-  return SurfaceVisibility(layers, heights, {.voxel_mm = voxel_mm, .threads = threads});
+  return SurfaceVisibility(packed(layers), heights, {.voxel_mm = voxel_mm, .threads = threads});
 }
 
 std::vector<Polygons> prism(const Polygons& outline, int layers) {
@@ -76,7 +76,7 @@ TEST(SurfaceVisibility, OfNothingIsOne) {
 
 SurfaceVisibility seen(const std::vector<Polygons>& layers, const View& view, int threads = 2) {
   const std::vector<double> heights(layers.size(), 0.2);
-  return SurfaceVisibility(layers, heights, {.threads = threads, .view = view, .opaque = {}});
+  return SurfaceVisibility(packed(layers), heights, {.threads = threads, .view = view, .opaque = {}});
 }
 
 Vec2 towards(double degrees) {
@@ -127,7 +127,7 @@ TEST(SurfaceVisibility, OfAViewWithoutWeightIsThatFromAllAround) {
 SurfaceVisibility translucent(const std::vector<Polygons>& layers, const std::vector<Polygons>& opaque,
                               int threads = 2) {
   const std::vector<double> heights(layers.size(), 0.2);
-  return SurfaceVisibility(layers, heights, {.threads = threads, .view = {}, .opaque = opaque});
+  return SurfaceVisibility(packed(layers), heights, {.threads = threads, .view = {}, .opaque = packed(opaque)});
 }
 
 TEST(TranslucentPlastic, LetsLessLightThroughTheDeeperAPlaceLies) {

@@ -1,0 +1,61 @@
+#include "base/packed_polygons.hpp"
+
+#include <cassert>
+#include <limits>
+
+namespace cleancolor {
+namespace {
+
+std::int32_t word(std::int64_t nm) {
+  assert(nm >= std::numeric_limits<std::int32_t>::min() && nm <= std::numeric_limits<std::int32_t>::max());
+  return std::int32_t(nm);
+}
+
+}  // namespace
+
+PackedPolygons::PackedPolygons(const Polygons& region) {
+  if (region.empty()) return;
+  std::size_t points = 0;
+  for (const Ring& ring : region) points += ring.size();
+  words_.reserve(1 + region.size() + 2 * points);
+  words_.push_back(word(std::int64_t(region.size())));
+  for (const Ring& ring : region) words_.push_back(word(std::int64_t(ring.size())));
+  for (const Ring& ring : region)
+    for (const Point& p : ring) {
+      words_.push_back(word(p.X));
+      words_.push_back(word(p.Y));
+    }
+}
+
+PackedPolygons::operator Polygons() const {
+  Polygons region;
+  region.reserve(size());
+  const std::int32_t* coordinate = words_.data() + 1 + size();
+  for (std::size_t i = 0; i < size(); ++i) {
+    Ring& ring = region.emplace_back();
+    ring.reserve(std::size_t(words_[1 + i]));
+    for (std::int32_t k = 0; k < words_[1 + i]; ++k, coordinate += 2) ring.emplace_back(coordinate[0], coordinate[1]);
+  }
+  return region;
+}
+
+std::vector<PackedPolygons> packed(std::span<const Polygons> regions) {
+  return {regions.begin(), regions.end()};
+}
+
+std::vector<Polygons> unpacked(std::span<const PackedPolygons> regions) {
+  return {regions.begin(), regions.end()};
+}
+
+Box<Vec2> bounds_mm(std::span<const PackedPolygons> regions) {
+  Box<Vec2> box;
+  for (const PackedPolygons& region : regions) {
+    const Box<Vec2> own = bounds_mm(Polygons(region));
+    if (own.empty()) continue;
+    box.add(own.min);
+    box.add(own.max);
+  }
+  return box;
+}
+
+}  // namespace cleancolor
