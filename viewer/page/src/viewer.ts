@@ -43,6 +43,7 @@ export class Viewer {
     const current = () => generation === this.generation;
     this.play(false);
     const loaded = await Promise.all(sources.map(async ({ name, source }) => ({ name, source, ...(await source.drawn((t, p) => { if (current()) said(`${name}: ${t}`, p); })) })));
+    await this.stage.ready;
     if (!current()) return;
     performance.mark("cleancolor moves here");
     this.select(null);
@@ -136,7 +137,7 @@ export class Viewer {
     const middle = box.getCenter(new THREE.Vector3()), radius = Math.max(12, box.getSize(new THREE.Vector3()).length() / 2);
     const { camera, controls } = this.stage;
     const narrow = Math.min(1, (this.stage.canvas.clientWidth / Math.max(1, this.sides.length)) / Math.max(1, this.stage.canvas.clientHeight));
-    const distance = (1.16 * radius) / Math.sin((camera.fov * Math.PI) / 360) / Math.max(0.45, narrow);
+    const distance = (1.0 * radius) / Math.sin((camera.fov * Math.PI) / 360) / Math.max(0.45, narrow);
     controls.target.copy(middle);
     camera.position.copy(middle).add(new THREE.Vector3(0.38, -0.86, 0.42).normalize().multiplyScalar(distance));
     camera.near = Math.max(0.5, distance / 200);
@@ -150,7 +151,7 @@ export class Viewer {
     const [low, high] = summary.part_box_mm ?? summary.box_mm;
     const outward = new THREE.Vector3(spot.x - (low[0] + high[0]) / 2, spot.y - (low[1] + high[1]) / 2, 0);
     if (outward.length() < 1) outward.set(0.3, -1, 0);
-    const eye = outward.normalize().add(new THREE.Vector3(0, 0, 0.75)).normalize().multiplyScalar(75).add(spot);
+    const eye = outward.normalize().add(new THREE.Vector3(0, 0, 0.75)).normalize().multiplyScalar(58).add(spot);
     const from = camera.position.clone(), target = controls.target.clone(), start = performance.now();
     const lasts = still_query.matches || this.stage.counters.software ? 0 : 450;
     const step = () => {

@@ -1,13 +1,14 @@
 // The bed: its outline, a grid of 10 mm, and where X and Y begin.
 import * as THREE from "three";
 import type { Summary } from "../data/print.ts";
+import { flat_material } from "./plain_materials.ts";
 
 export function bed(summary: Summary, dark: boolean): THREE.Object3D {
   const group = new THREE.Group();
   const outline = summary.bed_mm;
   if (outline.length < 3) return group;
   const shape = new THREE.Shape(outline.map(([x, y]) => new THREE.Vector2(x, y)));
-  const plate = new THREE.Mesh(new THREE.ShapeGeometry(shape), new THREE.MeshBasicMaterial({ color: dark ? "#20242b" : "#e9e6df", side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }));
+  const plate = new THREE.Mesh(new THREE.ShapeGeometry(shape), plate_material(dark));
   plate.position.z = -0.05;
   const xs = outline.map((p) => p[0]), ys = outline.map((p) => p[1]);
   const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
@@ -21,8 +22,15 @@ export function bed(summary: Summary, dark: boolean): THREE.Object3D {
   return group;
 }
 
+function plate_material(dark: boolean): THREE.Material {
+  const material = flat_material(dark ? "#20242b" : "#eae7e0");
+  material.polygonOffset = true;
+  material.polygonOffsetFactor = material.polygonOffsetUnits = 2;
+  return material;
+}
+
 function lines(points: number[], colour: string): THREE.LineSegments {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
-  return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour }));
+  return new THREE.LineSegments(geometry, flat_material(colour));
 }

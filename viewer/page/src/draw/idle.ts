@@ -5,6 +5,7 @@ import { flag, type Audit, type Moves, type Summary } from "../data/print.ts";
 import { carriage_at, move_at, time_at } from "../model/moment.ts";
 import { Ooze } from "../model/ooze.ts";
 import { css, nozzle_colours } from "../model/palette.ts";
+import { flat_material, solid_material, type FlatMaterial } from "./plain_materials.ts";
 import type { Look } from "./print_view.ts";
 
 const string_mm_per_mm3 = 5, string_mm = 0.35;
@@ -34,9 +35,9 @@ export class Idle {
     const body = new THREE.LatheGeometry(outline, 24).rotateX(Math.PI / 2);
     const string = new THREE.CylinderGeometry(string_mm * 0.5, string_mm * 0.8, 1, 8).rotateX(Math.PI / 2).translate(0, 0, -0.5);
     const drop = new THREE.SphereGeometry(1, 12, 10);
-    this.tips = new THREE.InstancedMesh(body, new THREE.MeshLambertMaterial({ transparent: true, opacity: 0.86 }), n);
+    this.tips = new THREE.InstancedMesh(body, solid_material(0.7, false), n);
     // The string hangs into the print: it is drawn over it, else nobody would see it.
-    const wet = new THREE.MeshLambertMaterial({ depthTest: false, transparent: true, opacity: 0.95 });
+    const wet = solid_material(0.95, true);
     this.strings = new THREE.InstancedMesh(string, wet, n);
     this.drops = new THREE.InstancedMesh(drop, wet, n);
     for (const m of [this.tips, this.strings, this.drops]) {
@@ -46,25 +47,22 @@ export class Idle {
     }
     this.strings.renderOrder = this.drops.renderOrder = 10;
     for (let i = 0; i < n; i++) {
-      const ghost = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: this.colours[i]!, transparent: true, opacity: 0.5, depthWrite: false }));
+      const ghost = new THREE.LineSegments(new THREE.BufferGeometry(), flat_material(this.colours[i]!, 0.45));
       const [x, y] = summary.nozzles[i]!.offset_mm;
       ghost.position.set(x, y, 0.05);
       this.ghosts.push(ghost);
       this.group.add(ghost);
     }
-    this.travels = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true, opacity: 0.8 }));
+    this.travels = new THREE.LineSegments(new THREE.BufferGeometry(), flat_material("#3b5f86", 0.8));
     this.group.add(this.travels);
     for (const l of [...this.ghosts, this.travels]) { l.frustumCulled = false; l.visible = false; }
-    const sky = new THREE.HemisphereLight(0xffffff, 0x8a8a90, 2.4), sun = new THREE.DirectionalLight(0xffffff, 1.4);
-    sun.position.set(-40, -60, 90);
-    this.group.add(sky, sun);
   }
 
   set_audit(audit: Audit): void { this.ooze.set_audit(audit); this.place(); }
 
   set_look(look: Look): void {
     this.look = look;
-    (this.travels.material as THREE.LineBasicMaterial).color.set(look.dark ? "#8fb3d9" : "#3b5f86");
+    (this.travels.material as FlatMaterial).uniforms.colour.value.set(look.dark ? "#8fb3d9" : "#3b5f86");
     for (const m of [this.tips, this.strings, this.drops]) m.visible = look.idle;
     this.lines();
   }

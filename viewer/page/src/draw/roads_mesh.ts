@@ -19,7 +19,7 @@ const vertex = /* glsl */ `
     vec3 d = b - a;
     float along = length(d);
     d = along > 1e-5 ? d / along : vec3(1.0, 0.0, 0.0);
-    float w = size.x * 0.005 + grow, h = size.y * 0.005 + grow;
+    float w = size.x * 0.0053 + grow, h = size.y * 0.0062 + grow; // a little more than half, so that neighbours close up
     vec3 side = normalize(vec3(-d.y, d.x, 0.0) + vec3(0.0, 1e-6, 0.0)), up = cross(d, side);
     vec3 centre = 0.5 * (a + b) - vec3(0.0, 0.0, size.y * 0.005);
     vec3 eye = isOrthographic ? vec3(viewMatrix[0][2], viewMatrix[1][2], viewMatrix[2][2]) : normalize(cameraPosition - centre);

@@ -3,6 +3,8 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Budget } from "./budget.ts";
+import { flat_material, solid_material } from "./plain_materials.ts";
+import { road_material, RoadChunk } from "./roads_mesh.ts";
 
 export interface View {
   scene: THREE.Scene;
@@ -22,6 +24,8 @@ export class Stage {
   readonly counters: Counters;
   views: View[] = [];
   background = new THREE.Color("#f4f2ee");
+  /** Resolves when the shaders are compiled: a frame before that would make the page wait for them. */
+  readonly ready: Promise<unknown>;
   private readonly budget: Budget;
   private readonly uploads = new THREE.Scene();
   private readonly nowhere = new THREE.WebGLRenderTarget(1, 1);
@@ -43,11 +47,24 @@ export class Stage {
     THREE.ColorManagement.enabled = false;
     this.budget = new Budget(software);
     this.counters = { frames: 0, draw_calls: 0, triangles: 0, roads: 0, script_ms: 0, script_ms_worst: 0, gpu_ms: 0, settled_at_ms: 0, software };
+    this.renderer.debug.checkShaderErrors = false; // asking would wait for the compiler
     this.camera.up.set(0, 0, 1);
+    this.ready = this.compile_early();
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.move());
     this.controls.zoomToCursor = true;
     new ResizeObserver(() => this.ask()).observe(canvas);
+  }
+
+  /** Has the shaders compiled while the data are on their way. */
+  private compile_early(): Promise<unknown> {
+    const scene = new THREE.Scene();
+    const roads = new RoadChunk(new Uint32Array(8), new Uint32Array(1), road_material());
+    const tip = new THREE.InstancedMesh(new THREE.SphereGeometry(), solid_material(0.7, false), 1);
+    tip.setColorAt(0, new THREE.Color());
+    scene.add(roads.mesh, tip, new THREE.Mesh(new THREE.PlaneGeometry(), flat_material("#000")), new THREE.Sprite());
+    roads.mesh.visible = true;
+    return this.renderer.compileAsync(scene, this.camera);
   }
 
   /** Something moves: draw soon, coarse if need be, and in full when it rests. */
