@@ -41,7 +41,7 @@ export class PrintView implements View {
   private bed_group = new THREE.Group();
   private colour: (move: number) => Rgba = () => 0;
   private painting = 0;
-  private shown: Shown;
+  shown: Shown;
   private look: Look;
   private under_key = "";
   private first_drawn: (() => void) | null = null;
@@ -110,7 +110,7 @@ export class PrintView implements View {
   /** Pieces drawn of each kind, for tests. */
   counts(): Record<string, number> {
     const chunk = (c: RoadChunk | null) => c?.shown ?? 0;
-    return { top: chunk(this.top), under: chunk(this.under), floor: chunk(this.floor), places: chunk(this.places), finished: this.body.finished() ? 1 : 0 };
+    return { top: chunk(this.top), under: chunk(this.under), floor: chunk(this.floor), places_drawn: chunk(this.places), finished: this.body.finished() ? 1 : 0 };
   }
 
   dispose(): void {
