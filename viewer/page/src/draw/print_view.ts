@@ -20,7 +20,8 @@ export interface Shown {
 export type RampartShown = "whole" | "open" | "hidden";
 export interface Look { colouring: Colouring; rampart: RampartShown; travel: boolean; idle: boolean; dark: boolean }
 
-const full_layers = 3; // below the cut, infill shows through the layer above
+// Below the cut, infill shows through the layers above it: so many layers are drawn in full.
+const fewest_full = 3, most_full = 14, full_roads = 9000;
 const exact = levels[0]!;
 
 export class PrintView implements View {
@@ -179,14 +180,17 @@ export class PrintView implements View {
   /** Layers just below the cut: the highest few in full, of others that the body's level leaves out what can be seen. */
   private fill_under(left: number, body: boolean): void {
     const { layer, from_layer } = this.shown;
-    const first = body ? Math.max(from_layer, Math.min(left, layer - full_layers)) : Math.max(from_layer, layer - full_layers);
+    const { layer_start } = this.moves;
+    let full = layer; // lowest layer drawn in full
+    while (full > from_layer && (layer - full < fewest_full || (layer - full < most_full && layer_start[layer]! - layer_start[full - 1]! < full_roads))) full--;
+    const first = Math.max(from_layer, body ? Math.min(left, full) : full);
     const key = `${first} ${layer}`;
     if (key === this.under_key) return;
     this.under_key = key;
     this.under?.dispose();
     const buffer = new RoadBuffer();
     const seen = (i: number) => (this.moves.flags[i]! & (flag.outermost | flag.auxiliary)) !== 0;
-    for (let l = first; l < layer; l++) add_layer(buffer, this.moves, l, l >= layer - full_layers ? () => true : seen, l >= layer - full_layers ? exact : levels[1]!);
+    for (let l = first; l < layer; l++) add_layer(buffer, this.moves, l, l >= full ? () => true : seen, l >= full ? exact : levels[1]!);
     this.under = this.chunk_of(buffer);
     this.under.show(buffer.count);
   }

@@ -16,11 +16,11 @@ export const places_of: Partial<Record<Colouring, Kind>> = { look: "smear", smea
 export interface LegendEntry { label: string; colour: string }
 export interface Legend { entries: LegendEntry[]; scale?: { from: string; to: string; ramp: string[] } }
 
-const role_colours: [RegExp, string, string][] = [
-  [/external|outer/, "#e07a3f", "outer walls"], [/overhang/, "#4361a8", "overhangs"], [/bridge/, "#5b8fd6", "bridges"],
-  [/top/, "#d1495b", "top surfaces"], [/solid/, "#b072c4", "solid infill"], [/gap|thin/, "#f3f0e6", "gap fill"], [/infill|fill/, "#9d4349", "infill"],
-  [/perimeter|inner|wall/, "#f2c14e", "walls"], [/refill/, "#12b5a6", "refill"], [/rampart|shield/, "#7fb069", "rampart"],
-  [/skirt|brim|raft/, "#8fb8a8", "skirt and brim"], [/tower|prime|purge/, "#8aa29e", "tower and purge"], [/support/, "#7aa95c", "support"],
+const role_colours: [RegExp, string][] = [
+  [/external|outer/, "#e07a3f"], [/overhang/, "#4361a8"], [/bridge/, "#5b8fd6"],
+  [/top/, "#d1495b"], [/solid/, "#b072c4"], [/gap|thin/, "#f3f0e6"], [/infill|fill/, "#9d4349"],
+  [/perimeter|inner|wall/, "#f2c14e"], [/refill/, "#12b5a6"], [/rampart|shield/, "#7fb069"],
+  [/skirt|brim|raft/, "#8fb8a8"], [/tower|prime|purge/, "#8aa29e"], [/support/, "#7aa95c"],
 ];
 export function role_colour(role: string): Rgba {
   const found = role_colours.find(([pattern]) => pattern.test(role.toLowerCase()));
@@ -52,7 +52,7 @@ export function painted(colouring: Colouring, summary: Summary, moves: Moves, au
     const table = summary.roles.map(role_colour);
     const used = new Set<number>();
     for (let i = 0; i < moves.count; i++) if (flags[i]! & flag.lays) used.add(role[i]!);
-    return { colour: (i) => table[role[i]!] ?? grey, legend: { entries: [...used].sort((a, b) => a - b).map((r) => ({ label: summary.roles[r] ?? "?", colour: css(table[r] ?? grey) })) } };
+    return { colour: (i) => table[role[i]!] ?? grey, legend: { entries: [...used].sort((a, b) => a - b).map((r) => ({ label: (summary.roles[r] ?? "?").replace(/_/g, " "), colour: css(table[r] ?? grey) })) } };
   }
   if (colouring === "speed") {
     const top = top_speed(moves);

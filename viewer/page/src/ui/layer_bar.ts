@@ -57,6 +57,17 @@ export function layer_bar(viewer: Viewer): HTMLElement {
     c.fillRect(middle - 0.5, 0, 1, box.height);
     const audits = viewer.sides.map((s) => s.audit).filter((a) => a !== null);
     const top = Math.max(1e-6, ...audits.map((a) => Math.max(a.layer_smear.reduce((x, y) => Math.max(x, y), 0), a.layer_hole.reduce((x, y) => Math.max(x, y), 0))));
+    // The print compared with, as pale bars behind.
+    const other = viewer.sides[1];
+    if (other?.audit) for (let l = 0; l < other.moves.layer_z.length; l++) {
+      const y = box.height * (1 - other.moves.layer_z[l]! / side.moves.layer_z[n - 1]!);
+      const reach = (mm3: number) => Math.sqrt(mm3 / top) * (middle - 2);
+      c.globalAlpha = 0.28;
+      c.fillStyle = style.getPropertyValue("--smear");
+      c.fillRect(middle - 1 - reach(other.audit.layer_smear[l]!), y, reach(other.audit.layer_smear[l]!), Math.max(1, height));
+      c.fillStyle = style.getPropertyValue("--hole");
+      c.fillRect(middle + 1, y, reach(other.audit.layer_hole[l]!), Math.max(1, height));
+    }
     if (side.audit) for (let l = 0; l < n; l++) {
       c.globalAlpha = l <= viewer.at.layer && l >= viewer.from_layer ? 1 : 0.35;
       const y = box.height - (l + 1) * height, h = Math.max(1, height);

@@ -26,7 +26,7 @@ export function move_bar(viewer: Viewer): HTMLElement {
     play.setAttribute("aria-label", viewer.playing ? "Pause" : "Play");
     const lays = (moves.flags[move]! & flag.lays) !== 0;
     where.textContent = [`z ${moves.layer_z[viewer.at.layer]!.toFixed(2)} mm`, `move ${viewer.at.step} / ${all}`, duration(viewer.time_s()),
-      `extruder ${moves.tool[move]! + 1}`, lays ? summary.roles[moves.role[move]!]! : "travel", `${Math.round(moves.speed[move]! / 10)} mm/s`].join("  ·  ");
+      `extruder ${moves.tool[move]! + 1}`, lays ? summary.roles[moves.role[move]!]!.replace(/_/g, " ") : "travel", `${Math.round(moves.speed[move]! / 10)} mm/s`].join("  ·  ");
     const colours = nozzle_colours(summary.nozzles.map((n) => n.colour));
     carried.replaceChildren(...summary.nozzles.map((_, i) => el("span", { title: `Nozzle ${i + 1} carries ${amount(view.idle.carried_mm3[i] ?? 0)} mm³ of ooze` }, swatch(css(colours[i]!)), `${(view.idle.carried_mm3[i] ?? 0).toFixed(2)} mm³`)));
   };
