@@ -55,7 +55,7 @@ export async function slicing(chrome, address) {
   });
 
   await test("a job that ends well is shown, and its G-code can be downloaded", async () => {
-    await page.fill("#option-layer_height", "0.4");
+    await page.fill("#option-layer_height", "0.32");
     await page.keyboard.press("Tab");
     await page.click("#slice");
     await job(3, "done");

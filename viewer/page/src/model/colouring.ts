@@ -65,12 +65,13 @@ export function painted(colouring: Colouring, summary: Summary, moves: Moves, au
   const pale = colouring === "smear" || colouring === "hole" || colouring === "zipper";
   const shades = nozzles.flatMap((c) => {
     const base = pale ? mix(c, neutral, 0.78) : c;
-    const waste = mix(base, neutral, pale ? 0.5 : 0.6);
-    return [base, waste].map((b) => Uint32Array.from({ length: 16 }, (_, v) => mix(rgba(0, 0, 0), b, visible ? 0.74 + (0.26 * v) / 15 : 1)));
+    const thrown = mix(base, neutral, pale ? 0.5 : 0.6);
+    return [base, thrown].map((b) => Uint32Array.from({ length: 16 }, (_, v) => mix(rgba(0, 0, 0), b, visible ? 0.74 + (0.26 * v) / 15 : 1)));
   });
   const colour = (i: number) => shades[2 * tool[i]! + (flags[i]! & flag.auxiliary ? 1 : 0)]![visible && !(flags[i]! & flag.auxiliary) ? visible[i]! >> 4 : 15]!;
+  const waste = flag.auxiliary | flag.lays;
   const entries: LegendEntry[] = summary.nozzles.map((n, i) => ({ label: `Extruder ${i + 1}${n.filament ? `, ${n.filament}` : ""}`, colour: css(pale ? mix(nozzles[i]!, neutral, 0.78) : nozzles[i]!) }));
-  if (flags.some((f) => (f & flag.auxiliary) !== 0)) entries.push({ label: "thrown away", colour: css(mix(nozzles[0]!, neutral, pale ? 0.9 : 0.6)) });
+  if (flags.some((f) => (f & waste) === waste)) entries.push({ label: "thrown away", colour: css(mix(nozzles[0]!, neutral, pale ? 0.9 : 0.6)) });
   if (colouring === "look") entries.push({ label: "smears: in the colour that oozes", colour: "" });
   const scale = colouring === "smear" || colouring === "hole" ? { from: "faint", to: "0.1 mm³", ramp: strip(heat) }
     : colouring === "zipper" ? { from: "hidden", to: "in full sight", ramp: strip(heat) } : undefined;
