@@ -59,7 +59,7 @@ export async function open_page(chrome, address, options = {}) {
   await page.goto(address);
   return page;
 }
-export const audited = (page) => page.waitForFunction(() => window.cleancolor?.viewer.sides.length > 0 && window.cleancolor.viewer.sides.every((s) => s.audit), null, { timeout: 120000 });
+export const audited = (page) => page.waitForFunction(() => window.cleancolor?.viewer.sides.length > 0 && window.cleancolor.viewer.sides.every((s) => s.audit), null, { timeout: 40000 });
 export const finished = (page) => page.waitForFunction(() => window.cleancolor.counts().every((c) => c.finished), null, { timeout: 60000 });
 export const settled = (page) => page.evaluate(() => window.cleancolor.settled());
 export async function picture(page, name) { await settled(page); await page.screenshot({ path: path.join(out, `${name}.png`) }); }

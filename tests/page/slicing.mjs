@@ -59,6 +59,7 @@ export async function slicing(chrome, address) {
     await page.keyboard.press("Tab");
     await page.click("#slice");
     await job(3, "done");
+    await picture(page, "sliced");
     await audited(page);
     const [file] = await Promise.all([page.waitForEvent("download"), page.click('#jobs li[data-job="3"] a')]);
     assert.match(file.suggestedFilename(), /\.gcode$/);

@@ -48,6 +48,13 @@ test("every move that lays plastic is a road at full detail; chords on one line 
   assert.deepEqual([...out.move.subarray(0, out.count)], [1, 2, 4]);
 });
 
+test("a road begins where its own nozzle was, whichever nozzle came before", () => {
+  const moves = moves_from([[0, 0, 0.2, false, 0, 0], [5, 5, 0.2, true, 0, 0], [9, 5, 0.2, true, 1, 0]]);
+  const out = new RoadBuffer();
+  add_layer(out, moves, 0, all, levels[0]!);
+  assert.deepEqual([...new Float32Array(out.words.buffer).subarray(8, 10)], [15, 5]);
+});
+
 test("coarse levels stay within their tolerance of the circle they draw", () => {
   const moves = moves_from(circle(720, 0));
   for (const level of levels) {

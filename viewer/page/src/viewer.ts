@@ -1,7 +1,7 @@
 // The viewer: prints, the moment looked at, and how; widgets show it and change it, and hear of changes by `on`.
 // A second print follows the first by height.
 import * as THREE from "three";
-import type { Audit, Moves, Summary } from "./data/print.ts";
+import { box_of, type Audit, type Moves, type Summary } from "./data/print.ts";
 import type { Source } from "./data/source.ts";
 import { Marker } from "./draw/marker.ts";
 import { PrintView, type Look } from "./draw/print_view.ts";
@@ -131,12 +131,13 @@ export class Viewer {
 
   /** The camera as at first: all of the print, from the front and above. */
   home(): void {
-    const boxes = this.sides.map((s) => s.summary.part_box_mm ?? s.summary.box_mm ?? [[-50, -50, 0], [50, 50, 50]]);
+    const boxes = this.sides.map((s) => box_of(s.summary));
     const box = new THREE.Box3();
     for (const [low, high] of boxes) box.expandByPoint(new THREE.Vector3(...low)).expandByPoint(new THREE.Vector3(...high));
     const middle = box.getCenter(new THREE.Vector3()), radius = Math.max(12, box.getSize(new THREE.Vector3()).length() / 2);
     const { camera, controls } = this.stage;
-    const narrow = Math.min(1, (this.stage.canvas.clientWidth / Math.max(1, this.sides.length)) / Math.max(1, this.stage.canvas.clientHeight));
+    const n = Math.max(1, this.sides.length), { clientWidth: width, clientHeight: height } = this.stage.canvas, tall = this.stage.tall();
+    const narrow = Math.min(1, (tall ? width : width / n) / Math.max(1, tall ? height / n : height));
     const distance = (1.0 * radius) / Math.sin((camera.fov * Math.PI) / 360) / Math.max(0.45, narrow);
     controls.target.copy(middle);
     camera.position.copy(middle).add(new THREE.Vector3(0.38, -0.86, 0.42).normalize().multiplyScalar(distance));
@@ -148,7 +149,7 @@ export class Viewer {
 
   private fly_to(spot: THREE.Vector3, summary: Summary): void {
     const { camera, controls } = this.stage;
-    const [low, high] = summary.part_box_mm ?? summary.box_mm;
+    const [low, high] = box_of(summary);
     const outward = new THREE.Vector3(spot.x - (low[0] + high[0]) / 2, spot.y - (low[1] + high[1]) / 2, 0);
     if (outward.length() < 1) outward.set(0.3, -1, 0);
     const eye = outward.normalize().add(new THREE.Vector3(0, 0, 0.75)).normalize().multiplyScalar(58).add(spot);

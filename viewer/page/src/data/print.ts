@@ -5,12 +5,12 @@ import { column, unpack } from "./arrays.ts";
 export const flag = { lays: 1, start_known: 2, outermost: 4, tool_changed: 8, auxiliary: 16 } as const;
 
 export interface Nozzle { offset_mm: [number, number]; colour: string; filament: string; part_g: number; auxiliary_g: number; used?: boolean }
-export interface Azimuth { candidates_deg: number[]; exposure_mm2: number[]; chosen_deg: number }
+export interface Azimuth { candidates_deg: number[]; exposure_s: number[]; interference_mm3: number[]; fits: boolean[]; chosen_deg: number | null }
 export type Box = [[number, number, number], [number, number, number]];
 export interface Summary {
   name: string; producer: string; dialect: string; moves: number; layers: number; tools: number; tool_changes: number;
   print_time_s: number; travel_mm: number; nozzles: Nozzle[]; idle_nozzle: string; bed_mm: [number, number][];
-  box_mm: Box; part_box_mm?: Box; roles: string[]; warnings: string[]; azimuth: Azimuth | null;
+  box_mm: Box | null; part_box_mm: Box | null; roles: string[]; warnings: string[]; azimuth: Azimuth | null;
 }
 
 export interface Moves {
@@ -58,6 +58,16 @@ export interface Audit {
   worst: number[]; // indices of places, of those close together the worst
   worst_mm3: number[]; // of all that are close together
   figures: Record<string, number>;
+}
+
+/** The box of the part, else of all plastic; where there is none, some place to look at. */
+export const box_of = (s: Summary): Box => s.part_box_mm ?? s.box_mm ?? [[-50, -50, 0], [50, 50, 50]];
+
+/** Where a move starts, mm: where the carriage was, with the nozzle that makes the move. Not always the end of the move
+ *  before, which another nozzle may have made.  Requires: move > 0. */
+export function start_of(m: Moves, move: number): [number, number] {
+  const offset = (c: number) => m.position[3 * move + c]! - m.carriage[2 * move + c]!;
+  return [m.carriage[2 * move - 2]! + offset(0), m.carriage[2 * move - 1]! + offset(1)];
 }
 
 /** Moves sorted by layer; stable, because prints object by object come back to low layers. */

@@ -1,7 +1,7 @@
 // What no slicer shows: where every nozzle is, what hangs from it, and the ghost it traces over the layer while another
 // one prints. Also the travels of the layer.
 import * as THREE from "three";
-import { flag, type Audit, type Moves, type Summary } from "../data/print.ts";
+import { flag, start_of, type Audit, type Moves, type Summary } from "../data/print.ts";
 import { carriage_at, move_at, time_at } from "../model/moment.ts";
 import { Ooze } from "../model/ooze.ts";
 import { css, nozzle_colours } from "../model/palette.ts";
@@ -114,7 +114,7 @@ export class Idle {
       if (i === 0) continue;
       ghosts.forEach((g, n) => { if (tool[i] !== n && tool[i - 1] === tool[i]) g.push(carriage[2 * i - 2]!, carriage[2 * i - 1]!, z, carriage[2 * i]!, carriage[2 * i + 1]!, z); });
       if (!(flags[i]! & flag.lays)) {
-        travel.push(...position.subarray(3 * i - 3, 3 * i + 3));
+        travel.push(...start_of(moves, i), position[3 * i - 1]!, position[3 * i]!, position[3 * i + 1]!, position[3 * i + 2]!);
         steps.push(k - first);
       }
     }

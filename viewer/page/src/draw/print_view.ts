@@ -1,7 +1,7 @@
 // One print in the scene: body, the layers at the cut in full, places of damage, nozzles, lines. It is told what to
 // show and chooses before each frame how finely.
 import * as THREE from "three";
-import { flag, kinds, type Audit, type Moves, type Summary } from "../data/print.ts";
+import { box_of, flag, kinds, type Audit, type Moves, type Summary } from "../data/print.ts";
 import { painted, place_colour, places_of, type Colouring, type Legend } from "../model/colouring.ts";
 import type { Rgba } from "../model/palette.ts";
 import { add_layer, levels, RoadBuffer, words_per_road } from "../model/roads.ts";
@@ -57,7 +57,7 @@ export class PrintView implements View {
     this.scene.add(this.root);
     this.root.add(this.bed_group, this.body.group, this.idle.group);
     this.place_material.uniforms.grow.value = 0.08;
-    const [low, high] = summary.box_mm;
+    const [low, high] = box_of(summary);
     for (const m of [this.material, this.place_material]) m.uniforms.middle.value.set((low[0] + high[0]) / 2, (low[1] + high[1]) / 2);
     this.set_look(look);
     void this.body.build((mesh) => stage.upload(mesh), (chunk) => this.paint(chunk), () => stage.ask());

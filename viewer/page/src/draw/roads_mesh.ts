@@ -21,6 +21,7 @@ const vertex = /* glsl */ `
     d = along > 1e-5 ? d / along : vec3(1.0, 0.0, 0.0);
     float w = size.x * 0.0053 + grow, h = size.y * 0.0062 + grow; // a little more than half, so that neighbours close up
     vec3 side = normalize(vec3(-d.y, d.x, 0.0) + vec3(0.0, 1e-6, 0.0)), up = cross(d, side);
+    w *= mix(1.6, 1.0, detail); h *= mix(1.3, 1.0, detail);
     vec3 centre = 0.5 * (a + b) - vec3(0.0, 0.0, size.y * 0.005);
     vec3 eye = isOrthographic ? vec3(viewMatrix[0][2], viewMatrix[1][2], viewMatrix[2][2]) : normalize(cameraPosition - centre);
     // The diamond's two faces towards the eye share one corner, the ridge; the other two are beside it.
@@ -28,9 +29,10 @@ const vertex = /* glsl */ `
     bool flat_on = abs(eu) * w > abs(es) * h;
     vec3 ridge = flat_on ? up * sign(eu) : side * sign(es), flank = flat_on ? side * sign(eu) : -up * sign(es);
     float rw = flat_on ? h : w, fw = flat_on ? w : h;
-    // From afar, where a road is a pixel or two, its rounding would only flicker: there the normals are those of a flat face.
-    float round = across == 0.0 ? 0.0 : mix(0.25, 1.0, detail);
-    vec3 normal = normalize(flank * across * round + ridge * mix(1.0, across == 0.0 ? 1.0 : 0.25, detail));
+    // Near, a road is round; from afar, where it is a pixel or two, that would only flicker: there it has the normal of
+    // both faces together, each by how much of it is seen.
+    vec3 round_normal = across == 0.0 ? ridge : normalize(flank * across + ridge * 0.25);
+    vec3 normal = normalize(mix(normalize(side * es * h + up * eu * w), round_normal, detail));
     vec3 p = (at_start ? a - d * w * 0.7 : b + d * w * 0.7) - vec3(0.0, 0.0, size.y * 0.005);
     p += across == 0.0 ? ridge * rw : flank * across * fw;
     // Light from the eye's upper left, and from the sky.

@@ -98,6 +98,9 @@ export class Stage {
   /** Resolves when the frame being drawn, or the next, is on the screen. */
   frame_done(): Promise<void> { return new Promise((r) => this.next_frame.push(r)); }
 
+  /** Whether two prints stand one above the other, as on a phone. */
+  tall(): boolean { return this.views.length > 1 && this.canvas.clientHeight > this.canvas.clientWidth * 1.1; }
+
   pixels_per_mm(): number {
     const distance = this.camera.position.distanceTo(this.controls.target);
     return this.canvas.height / (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360));
@@ -114,7 +117,7 @@ export class Stage {
     renderer.setScissorTest(true);
     const n = Math.max(1, this.views.length);
     const width = canvas.clientWidth, height = canvas.clientHeight;
-    const tall = n > 1 && height > width * 1.1; // on a phone two prints stand one above the other
+    const tall = this.tall();
     camera.aspect = tall ? width / (height / n) : width / n / height;
     camera.updateProjectionMatrix();
     let roads = 0;

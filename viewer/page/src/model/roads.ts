@@ -4,7 +4,7 @@
 //
 // A coarse level joins chords that stay within `tolerance_mm` of one line, and draws one layer of `stride`, as high as
 // all of them together. Seen from afar it looks the same and costs a fraction.
-import { flag, type Moves } from "../data/print.ts";
+import { flag, start_of, type Moves } from "../data/print.ts";
 
 export interface Level { tolerance_mm: number; stride: number }
 /** From fine to coarse. A level serves where its tolerance is below a pixel, or where the machine cannot draw a finer one in time. */
@@ -41,11 +41,11 @@ export class RoadBuffer {
 
   /** The piece from where move `a` begins to where move `b` ends; width and height of `a`, as many layers high as `stride`. */
   add(moves: Moves, a: number, b: number, stride: number): void {
-    this.put(moves.position, 3 * (a - 1), moves.position, 3 * b, moves.width[a]!, Math.min(255, moves.height[a]! * stride), (moves.flags[a]! & flag.auxiliary) !== 0, a);
+    this.put(start_of(moves, a), 0, moves.position, 3 * b, moves.width[a]!, Math.min(255, moves.height[a]! * stride), (moves.flags[a]! & flag.auxiliary) !== 0, a);
   }
 
   /** A piece between two points given by their first coordinate's index. A road lies flat, whatever height the nozzle came from. */
-  put(from: Float32Array, f: number, to: Float32Array, t: number, width: number, height: number, auxiliary: boolean, move: number): void {
+  put(from: ArrayLike<number>, f: number, to: Float32Array, t: number, width: number, height: number, auxiliary: boolean, move: number): void {
     const n = this.count++, w = words_per_road * n;
     if (n === this.move.length) this.grow();
     const { floats, words } = this;
@@ -70,9 +70,9 @@ export class RoadBuffer {
 
 const same_road = (m: Moves, a: number, b: number) => m.tool[a] === m.tool[b] && m.role[a] === m.role[b] && m.flags[a] === m.flags[b];
 
-/** Distance of point k from the line through the start of the run and the end of move b; the run's own length does not matter. */
-function off_line(p: Float32Array, start: number, k: number, b: number): number {
-  const ax = p[3 * start]!, ay = p[3 * start + 1]!, dx = p[3 * b]! - ax, dy = p[3 * b + 1]! - ay;
+/** Distance of point k from the line between the start of the run and the end of move b. */
+function off_line(p: Float32Array, [ax, ay]: [number, number], k: number, b: number): number {
+  const dx = p[3 * b]! - ax, dy = p[3 * b + 1]! - ay;
   const ex = p[3 * k]! - ax, ey = p[3 * k + 1]! - ay;
   const length = Math.hypot(dx, dy);
   const along = dx * ex + dy * ey;
@@ -86,17 +86,19 @@ const longest_run = 24; // chords joined at most: bounds the cost of looking bac
 export function add_layer(out: RoadBuffer, moves: Moves, layer: number, wanted: (move: number) => boolean, level: Level): void {
   const { position, flags, order, layer_start } = moves;
   let first = -1, last = -1; // of the run
+  let start: [number, number] = [0, 0];
   const flush = () => { if (first > 0) out.add(moves, first, last, level.stride); first = -1; };
   for (let k = layer_start[layer]!; k < layer_start[layer + 1]!; k++) {
     const i = order[k]!;
     if (!(flags[i]! & flag.lays) || !(flags[i]! & flag.start_known) || i === 0 || !wanted(i)) { flush(); continue; }
     if (first > 0 && i === last + 1 && i - first < longest_run && same_road(moves, first, i)) {
       let fits = true;
-      for (let j = first; fits && j < i; j++) fits = off_line(position, first - 1, j, i) <= level.tolerance_mm;
+      for (let j = first; fits && j < i; j++) fits = off_line(position, start, j, i) <= level.tolerance_mm;
       if (fits) { last = i; continue; }
     }
     flush();
     first = last = i;
+    start = start_of(moves, i);
   }
   flush();
 }

@@ -11,7 +11,7 @@ export function jobs(done: (job: Job) => void, view: (print: number) => void): J
   const list = el("ul", { class: "jobs", id: "jobs", "aria-live": "polite" });
   const element = el("section", { class: "pane", "aria-label": "Jobs", hidden: true }, el("h3", {}, "Jobs"), list);
   const waited = new Set<number>();
-  let polling = false;
+  let polling = false, again = false;
 
   function row(j: Job): HTMLElement {
     const active = j.state === "running" || j.state === "queued";
@@ -26,16 +26,18 @@ export function jobs(done: (job: Job) => void, view: (print: number) => void): J
   }
 
   async function poll(): Promise<void> {
+    again = true;
     if (polling) return;
     polling = true;
     try {
       for (;;) {
+        again = false;
         const all = await api.jobs();
         element.hidden = all.length === 0;
         list.replaceChildren(...all.slice().reverse().map(row));
         for (const j of all) if (waited.has(j.id) && j.state !== "queued" && j.state !== "running") { waited.delete(j.id); if (j.state === "done") done(j); }
-        if (!all.some((j) => j.state === "queued" || j.state === "running")) break;
-        await new Promise((r) => setTimeout(r, poll_ms));
+        if (!again && !all.some((j) => j.state === "queued" || j.state === "running")) break;
+        if (!again) await new Promise((r) => setTimeout(r, poll_ms));
       }
     } catch { /* the program has ended; the next request says so */ } finally { polling = false; }
   }

@@ -23,7 +23,7 @@ export function viewer_layout(more: { name: string; title: string; content: HTML
   const main = el("main", {}, stage, layer_bar(viewer), move_bar(viewer), el("aside", { "aria-label": "Details" }, side.element));
   viewer.on((what) => {
     if (what !== "prints") return;
-    stage.classList.toggle("pair", viewer.sides.length > 1);
+    names.classList.toggle("tall", viewer.stage.tall());
     names.replaceChildren(...(viewer.sides.length > 1 ? viewer.sides.map((s) => el("span", {}, s.name)) : []));
   });
   const say = (text: string, progress?: number) => {
