@@ -114,9 +114,8 @@ void PrintStore::draw(const EntryHandle& entry) {
     if (progress.interrupted()) return;
     const auto drawn = std::make_shared<Drawn>();
     GcodePrint& print = drawn->print;
-    print = read_gcode_file(entry->source.file->path(), progress);
+    print = read_gcode(gcode_text(entry->source.file->path()), entry->source.name, progress);
     print.text.reset();  // the moves tell all that follows
-    print.name = entry->source.name;
     drawn->machine = audit_machine(print, entry->source.machine, progress);
     progress.advance("drawing", 0);
     const Timeline time = timeline(print, drawn->machine);

@@ -15,7 +15,7 @@
 
 #include "audit/machine.hpp"
 #include "base/progress.hpp"
-#include "orient/azimuth.hpp"
+#include "pipeline.hpp"
 #include "viewer/files.hpp"
 #include "viewer/worker.hpp"
 

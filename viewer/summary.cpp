@@ -121,6 +121,14 @@ Json box_json(const Box<Vec3>& box) {
   return {{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}};
 }
 
+/// candidates_deg: the angles that the curves are about, one by one.
+Json azimuth_json(const Azimuths& azimuths) {
+  Json json = azimuth_fields(azimuths);
+  json["candidates_deg"] = Json::array();
+  for (std::size_t deg = 0; deg < azimuths.exposure_s.size(); ++deg) json["candidates_deg"].push_back(deg);
+  return json;
+}
+
 }  // namespace
 
 Json print_summary(const ReadPrint& read) {
@@ -146,7 +154,7 @@ Json print_summary(const ReadPrint& read) {
           {"part_box_mm", box_json(plastic.part)},
           {"roles", roles},
           {"warnings", read.warnings},
-          {"azimuth", read.azimuths ? azimuth_fields(*read.azimuths) : Json()}};
+          {"azimuth", read.azimuths ? azimuth_json(*read.azimuths) : Json()}};
 }
 
 }  // namespace cleancolor

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "audit/timeline.hpp"
-#include "orient/azimuth.hpp"
+#include "pipeline.hpp"
 #include "viewer/moves.hpp"
 
 namespace cleancolor {
