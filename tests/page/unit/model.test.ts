@@ -71,7 +71,7 @@ test("coarse levels stay within their tolerance of the circle they draw", () => 
 
 test("a coarse level draws the top layer of each group", () => {
   const moves = moves_from([0, 1, 2, 3, 4].flatMap((l) => circle(12, l)));
-  const roads = finished(level_roads(moves, { tolerance_mm: 0.001, stride: 2 }));
+  const roads = finished(level_roads(moves, { tolerance_mm: 0.001, stride: 2 }, all));
   assert.deepEqual([...roads.layer_end], [0, 12, 12, 24, 24]);
 });
 

@@ -1,7 +1,7 @@
 // One print in the scene: body, the layers at the cut in full, places of damage, nozzles, lines. It is told what to
 // show and chooses before each frame how finely.
 import * as THREE from "three";
-import { box_of, flag, kinds, type Audit, type Moves, type Summary } from "../data/print.ts";
+import { box_of, kinds, type Audit, type Moves, type Summary } from "../data/print.ts";
 import { painted, place_colour, places_of, type Colouring, type Legend } from "../model/colouring.ts";
 import type { Rgba } from "../model/palette.ts";
 import { add_layer, levels, RoadBuffer, words_per_road } from "../model/roads.ts";
@@ -60,12 +60,13 @@ export class PrintView implements View {
     const [low, high] = box_of(summary);
     for (const m of [this.material, this.place_material]) m.uniforms.middle.value.set((low[0] + high[0]) / 2, (low[1] + high[1]) / 2);
     this.set_look(look);
-    void this.body.build((mesh) => stage.upload(mesh), (chunk) => this.paint(chunk), () => stage.ask());
+    this.body.build((mesh) => stage.upload(mesh), (chunk) => this.paint(chunk), () => stage.ask());
   }
 
   set_audit(audit: Audit): void {
     this.audit = audit;
     this.idle.set_audit(audit);
+    this.body.refine(audit.visibility, (mesh) => this.stage.upload(mesh), (chunk) => this.paint(chunk), () => this.stage.ask());
     this.recolour();
   }
 
@@ -189,8 +190,7 @@ export class PrintView implements View {
     this.under_key = key;
     this.under?.dispose();
     const buffer = new RoadBuffer();
-    const seen = (i: number) => (this.moves.flags[i]! & (flag.outermost | flag.auxiliary)) !== 0;
-    for (let l = first; l < layer; l++) add_layer(buffer, this.moves, l, l >= full ? () => true : seen, l >= full ? exact : levels[1]!);
+    for (let l = first; l < layer; l++) add_layer(buffer, this.moves, l, l >= full ? () => true : this.body.seen, l >= full ? exact : levels[1]!);
     this.under = this.chunk_of(buffer);
     this.under.show(buffer.count);
   }

@@ -106,13 +106,18 @@ export function add_layer(out: RoadBuffer, moves: Moves, layer: number, wanted: 
 /** Layers a level draws: the top one of each group. */
 export const drawn_layer = (layer: number, level: Level) => layer % level.stride === level.stride - 1;
 
-/** All layers of a level, a layer at each step, so that the caller can pause. Roads that can be seen from outside, and auxiliary ones. */
-export function* level_roads(moves: Moves, level: Level): Generator<void, Roads> {
+/** Whether a move can be seen from outside: walls, tops and auxiliary plastic; once audited also what shows between the
+ *  steps of a slope. */
+export function seen_from_outside(moves: Moves, visibility?: Uint8Array): (move: number) => boolean {
+  const { flags } = moves, outer = flag.outermost | flag.auxiliary, plainly = 20; // of 255
+  return (i) => (flags[i]! & outer) !== 0 || (visibility !== undefined && visibility[i]! > plainly);
+}
+
+/** All layers of a level, a layer at each step, so that the caller can pause. */
+export function* level_roads(moves: Moves, level: Level, seen: (move: number) => boolean): Generator<void, Roads> {
   const out = new RoadBuffer(1 << 14);
   const layers = moves.layer_z.length;
   const layer_end = new Uint32Array(layers);
-  const { flags } = moves;
-  const seen = (i: number) => (flags[i]! & (flag.outermost | flag.auxiliary)) !== 0;
   for (let layer = 0; layer < layers; layer++) {
     if (drawn_layer(layer, level)) add_layer(out, moves, layer, seen, level);
     layer_end[layer] = out.count;
