@@ -72,7 +72,7 @@ export function painted(colouring: Colouring, summary: Summary, moves: Moves, au
   const waste = flag.auxiliary | flag.lays;
   const entries: LegendEntry[] = summary.nozzles.map((n, i) => ({ label: `Extruder ${i + 1}${n.filament ? `, ${n.filament}` : ""}`, colour: css(pale ? mix(nozzles[i]!, neutral, 0.78) : nozzles[i]!) }));
   if (flags.some((f) => (f & waste) === waste)) entries.push({ label: "thrown away", colour: css(mix(nozzles[0]!, neutral, pale ? 0.9 : 0.6)) });
-  if (colouring === "look") entries.push({ label: "smears: in the colour that oozes", colour: "" });
+  if (colouring === "look") entries.push({ label: "smears, drawn wider than they are", colour: "" });
   const scale = colouring === "smear" || colouring === "hole" ? { from: "faint", to: "0.1 mm³", ramp: strip(heat) }
     : colouring === "zipper" ? { from: "hidden", to: "in full sight", ramp: strip(heat) } : undefined;
   return { colour, legend: scale ? { entries, scale } : { entries } };

@@ -2,7 +2,7 @@
 import type { JobRequest, Option, Profile } from "../data/api.ts";
 
 /** Shown at once; all others are under "All options". */
-export const options_that_matter = ["layer_height", "perimeters", "fill_density", "fill_pattern", "rampart", "planner", "effort", "seam_position", "brim_width", "skirts", "azimuth"];
+export const options_that_matter = ["layer_height", "perimeters", "fill_density", "fill_pattern", "rampart", "planner", "effort", "seam_position", "brim_width", "skirts"];
 
 export interface Choice {
   printer: string; print: string; materials: string[]; protect: string;
