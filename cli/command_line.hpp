@@ -86,6 +86,15 @@ struct ExplainCommand : MachineOptions {
   bool quiet = false;
 };
 
+/// cleancolor view
+struct ViewCommand : MachineOptions {
+  std::vector<std::filesystem::path> prints, meshes;
+  std::string address = "127.0.0.1";
+  std::optional<int> port;  // empty: the usual one, or any where that is taken; 0: any
+  bool browser = true;
+  int threads = 0;
+};
+
 /// cleancolor profiles [show NAME]
 struct ProfilesCommand {
   std::string show;  // name or file; empty: list all
@@ -102,7 +111,7 @@ struct TextCommand {
   std::string text;
 };
 
-using Command = std::variant<SliceCommand, AzimuthCommand, AuditCommand, ExplainCommand, ProfilesCommand,
+using Command = std::variant<SliceCommand, AzimuthCommand, AuditCommand, ExplainCommand, ViewCommand, ProfilesCommand,
                              OptionsCommand, TextCommand>;
 
 /// arguments: without the program's name. Throws Error for anything that is not understood.

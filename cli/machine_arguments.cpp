@@ -2,48 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
-#include <utility>
-
+#include "audit/machine_texts.hpp"
 #include "base/error.hpp"
 #include "cli/words.hpp"
 #include "model/settings.hpp"
 
 namespace cleancolor {
-namespace {
-
-std::vector<Vec2> offsets_of(std::string_view text) {
-  constexpr double farthest_mm = 1000;
-  std::vector<Vec2> offsets;
-  for (const std::string_view point : split(text, ',')) {
-    const std::size_t x = point.find('x');
-    Vec2 at;
-    if (x == point.npos || !parse_whole(point.substr(0, x), at.x) || !parse_whole(point.substr(x + 1), at.y) ||
-        !(std::abs(at.x) <= farthest_mm) || !(std::abs(at.y) <= farthest_mm))
-      throw Error(
-          fmt::format("--nozzle-offset: '{}' is not like 33x0, mm in X and Y; say 0x0,33x0 for two nozzles", point));
-    offsets.push_back(at);
-  }
-  if (offsets.size() > max_tools)
-    throw Error(fmt::format("--nozzle-offset: {} nozzles; at most {} are possible", offsets.size(), max_tools));
-  if (offsets.front() != Vec2{})
-    throw Error("--nozzle-offset: the first nozzle is at 0x0; the others are given as seen from it");
-  return offsets;
-}
-
-template <class T, std::size_t n>
-T choice(const std::string& option, const std::string& text, const std::array<std::pair<const char*, T>, n>& choices) {
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : choices) {
-    if (text == name) return value;
-    names.emplace_back(name);
-  }
-  throw Error(fmt::format("{}: '{}' is none of {}", option, text, fmt::join(names, ", ")));
-}
-
-}  // namespace
-
 void add_machine(CLI::App& app, MachineTexts& texts) {
   const char* group = "The printer";
   app.add_option("--printer", texts.printer, "printer: a name from 'cleancolor profiles', or a .toml file")
@@ -63,16 +27,10 @@ void add_machine(CLI::App& app, MachineTexts& texts) {
 MachineOptions machine_options(const MachineTexts& texts) {
   MachineOptions options;
   options.printer = texts.printer;
-  if (!texts.nozzle_offset.empty()) options.nozzle_offset_mm = offsets_of(texts.nozzle_offset);
-  if (!texts.offsets_in.empty())
-    options.offsets_in = choice<OffsetsIn, 2>("--offsets-in", texts.offsets_in,
-                                              {{{"slicer", OffsetsIn::slicer}, {"firmware", OffsetsIn::firmware}}});
-  if (!texts.idle_nozzle.empty())
-    options.idle_nozzle = choice<IdleNozzle, 4>("--idle-nozzle", texts.idle_nozzle,
-                                                {{{"same_height", IdleNozzle::same_height},
-                                                  {"lifted", IdleNozzle::lifted},
-                                                  {"parked", IdleNozzle::parked},
-                                                  {"docked", IdleNozzle::docked}}});
+  if (!texts.nozzle_offset.empty())
+    options.nozzle_offset_mm = nozzle_offsets_of(texts.nozzle_offset, "--nozzle-offset");
+  if (!texts.offsets_in.empty()) options.offsets_in = offsets_in_of(texts.offsets_in, "--offsets-in");
+  if (!texts.idle_nozzle.empty()) options.idle_nozzle = idle_nozzle_of(texts.idle_nozzle, "--idle-nozzle");
   return options;
 }
 

@@ -13,6 +13,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/profiles.hpp"
 #include "cli/slice.hpp"
+#include "cli/view.hpp"
 
 namespace cleancolor {
 namespace {
@@ -28,6 +29,8 @@ int run(const Command& command) {
     code = run(*audit, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
   } else if (const auto* explain = std::get_if<ExplainCommand>(&command)) {
     run(*explain, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
+  } else if (const auto* view = std::get_if<ViewCommand>(&command)) {
+    run(*view, std::cout, std::cerr);
   } else if (const auto* profiles = std::get_if<ProfilesCommand>(&command)) {
     std::cout << text_of(*profiles);
   } else if (const auto* options = std::get_if<OptionsCommand>(&command)) {

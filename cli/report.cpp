@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/duration_text.hpp"
+#include "summary_json.hpp"
 
 namespace cleancolor {
 
@@ -55,17 +56,7 @@ std::string summary_json(const Summary& summary, const SliceRequest& request,
                          const std::vector<std::string>& warnings) {
   nlohmann::ordered_json json;
   json["output"] = request.output.string();
-  json["layers"] = summary.layers;
-  json["tool_changes"] = summary.tool_changes;
-  json["time_s"] = summary.time_s;
-  json["extruders"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < summary.extruders.size(); ++i) {
-    const ExtruderUse& use = summary.extruders[i];
-    json["extruders"].push_back(
-        {{"extruder", i + 1}, {"filament_mm", use.filament_mm}, {"filament_g", use.filament_g}, {"cost", use.cost}});
-  }
-  json["azimuth_deg"] = summary.protection.azimuth_deg;
-  json["rampart_g"] = summary.protection.rampart_g;
+  json.update(summary_fields(summary));
   json["warnings"] = warnings;
   // File names need not be UTF-8; JSON must be.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -95,19 +86,7 @@ std::string azimuth_table(const Azimuths& azimuths) {
 }
 
 std::string azimuth_json(const Azimuths& azimuths) {
-  const auto degrees = [](const std::optional<int>& turn) {
-    return turn ? nlohmann::ordered_json(*turn) : nlohmann::ordered_json();
-  };
-  nlohmann::ordered_json json;
-  json["chosen_deg"] = degrees(azimuths.chosen_deg());
-  json["best_deg"] = degrees(azimuths.best_deg);
-  json["least_interference_deg"] = degrees(azimuths.least_interference_deg);
-  json["part_mm3"] = azimuths.part_mm3;
-  json["exposure_s"] = azimuths.exposure_s;
-  json["interference_mm3"] = azimuths.interference_mm3;
-  json["fits"] = nlohmann::ordered_json::array();
-  for (const char fits : azimuths.fits) json["fits"].push_back(fits != 0);
-  return json.dump(2) + "\n";
+  return azimuth_fields(azimuths).dump(2) + "\n";
 }
 
 }  // namespace cleancolor

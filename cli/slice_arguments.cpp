@@ -214,12 +214,6 @@ void require_word(const char* option, const std::string& text, std::initializer_
   throw Error(fmt::format("{}: '{}' is none of {}", option, text, fmt::join(words, ", ")));
 }
 
-/// Whether parts are turned and walled in.
-bool require_protection(const std::string& protect) {
-  require_word("--protect", protect, {"none", "rampart", "full"});
-  return protect != "none";
-}
-
 Overlap overlap_of(const std::string& text) {
   if (text == "refuse") return Overlap::refuse;
   if (text == "first") return Overlap::first;
@@ -270,16 +264,16 @@ SliceCommand slice_command(const CLI::App& app, SliceTexts texts) {
   command.files = files_in_order(app, texts);
   if (command.files.empty())
     throw Error(fmt::format("{0}: name at least one mesh file; see cleancolor {0} --help", app.get_name()));
-  const bool protects = require_protection(texts.protect);
-  command.azimuth_deg = azimuth_of(texts.azimuth.value_or(protects ? "auto" : "off"));
+  require_word("--protect", texts.protect, {"none", "rampart", "full"});
+  const ProtectionLevel protects = protection_level(texts.protect).value_or(ProtectionLevel{});
+  command.azimuth_deg = azimuth_of(texts.azimuth.value_or(protects.turns ? "auto" : "off"));
   // What is set by name counts more.
   require_word("--planner", texts.planner, {"clean", "paper", "plain"});
   require_word("--effort", texts.effort, {"fast", "normal", "best"});
   std::vector<std::string>& set = command.settings.set;
   if (!texts.effort.empty()) set.insert(set.begin(), "effort=" + texts.effort);
   if (!texts.planner.empty()) set.insert(set.begin(), "planner=" + texts.planner);
-  if (!protects) set.insert(set.begin(), "rampart=off");
-  if (!texts.protect.empty() && texts.protect != "full") set.insert(set.begin(), "planner=plain");
+  set.insert(set.begin(), protects.set.begin(), protects.set.end());
   if (!texts.rampart.empty()) command.settings.set.push_back("rampart=" + texts.rampart);
   for (const std::string& text : texts.colours) {
     const auto [rgb, extruder] = colour_mapping(text);

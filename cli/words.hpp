@@ -1,12 +1,12 @@
 // cli/words.hpp
 //
-// What the parsers of all commands share: numbers in words, and texts of --help.
+// What the parsers of all commands share: texts of --help, and what files and threads may be.
 #pragma once
 
-#include <charconv>
 #include <filesystem>
 #include <string_view>
-#include <vector>
+
+#include "base/text_parts.hpp"
 
 namespace cleancolor {
 
@@ -17,16 +17,6 @@ inline constexpr const char* exit_codes =
     "  2    wrong input or options\n"
     "  3    a file cannot be read or written\n"
     "  130  interrupted; no file is left\n";
-
-/// Whether the whole text is one number.
-template <class T>
-bool parse_whole(std::string_view text, T& value) {
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return fault == std::errc() && end == text.data() + text.size();
-}
-
-/// The pieces between the letters `at`; one where there is none.
-std::vector<std::string_view> split(std::string_view text, char at);
 
 /// Throws Error where the file, if there is one, does not end so; hint: what to do.
 void require_ending(const std::filesystem::path& path, std::string_view option, std::string_view ending,

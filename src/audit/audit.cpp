@@ -165,19 +165,21 @@ AuditResult audit(const GcodePrint& print, const AuditMachine& machine, const Au
   return Auditor(print, machine, options, progress).result();
 }
 
-std::vector<Place> worst_places(const ScenarioResult& result, std::size_t count) {
-  std::vector<Place> places;
-  for (const Place& p : result.places)
-    if (p.kind == Place::Kind::smear || p.kind == Place::Kind::hole) places.push_back(p);
-  const auto worse = [](const Place& a, const Place& b) { return a.mm3 > b.mm3; };
-  std::ranges::stable_sort(places, worse);
+std::vector<Defect> defects(const ScenarioResult& result) {
+  std::vector<Defect> single;
+  for (std::size_t i = 0; i < result.places.size(); ++i) {
+    const Place& p = result.places[i];
+    if (p.kind == Place::Kind::smear || p.kind == Place::Kind::hole) single.push_back({i, p.mm3, p.length_mm});
+  }
+  std::ranges::stable_sort(single, std::ranges::greater(), &Defect::mm3);
 
   // Each place joins the first worse one that is near enough; cells as large as that hold few of them.
   using Cell = std::tuple<std::uint32_t, Place::Kind, std::uint8_t, std::uint8_t, std::int64_t, std::int64_t>;
   std::map<Cell, std::vector<std::size_t>> cells;
-  std::vector<Place> joined;
+  std::vector<Defect> joined;
   const auto to_cell = [](double mm) { return std::int64_t(std::floor(mm / joined_places_mm)); };
-  for (const Place& p : places) {
+  for (const Defect& one : single) {
+    const Place& p = result.places[one.place];
     const std::int64_t x = to_cell(p.at_mm.x), y = to_cell(p.at_mm.y);
     std::size_t home = joined.size();
     for (std::int64_t dy = -1; dy <= 1; ++dy)
@@ -185,19 +187,29 @@ std::vector<Place> worst_places(const ScenarioResult& result, std::size_t count)
         const auto found = cells.find({p.layer, p.kind, p.nozzle, p.over, x + dx, y + dy});
         if (found == cells.end()) continue;
         for (const std::size_t j : found->second)
-          if (j < home && distance(joined[j].at_mm, p.at_mm) < joined_places_mm) home = j;
+          if (j < home && distance(result.places[joined[j].place].at_mm, p.at_mm) < joined_places_mm) home = j;
       }
     if (home == joined.size()) {
-      joined.push_back(p);
+      joined.push_back(one);
       cells[{p.layer, p.kind, p.nozzle, p.over, x, y}].push_back(home);
     } else {
-      joined[home].mm3 += p.mm3;
-      joined[home].length_mm += p.length_mm;
+      joined[home].mm3 += one.mm3;
+      joined[home].length_mm += one.length_mm;
     }
   }
-  std::ranges::stable_sort(joined, worse);
-  joined.resize(std::min(count, joined.size()));
+  std::ranges::stable_sort(joined, std::ranges::greater(), &Defect::mm3);
   return joined;
+}
+
+std::vector<Place> worst_places(const ScenarioResult& result, std::size_t count) {
+  std::vector<Place> worst;
+  for (const Defect& defect : defects(result)) {
+    if (worst.size() == count) break;
+    Place& p = worst.emplace_back(result.places[defect.place]);
+    p.mm3 = defect.mm3;
+    p.length_mm = defect.length_mm;
+  }
+  return worst;
 }
 
 }  // namespace cleancolor

@@ -56,8 +56,9 @@ struct Place {
   float visibility = 0;
   float length_mm = 0;  // of the touch
   std::uint32_t layer = 0;
-  Vec2 at_mm;   // where the touch begins, in plastic coordinates
-  Vec2 end_mm;  // and ends
+  std::uint32_t move = 0;  // of the print, in which it happens; of what happens between two, the later
+  Vec2 at_mm;              // where the touch begins, in plastic coordinates
+  Vec2 end_mm;             // and ends
 };
 
 struct PairFigures {
@@ -97,7 +98,17 @@ struct AuditResult {
 AuditResult audit(const GcodePrint& print, const AuditMachine& machine, const AuditOptions& options = {},
                   const Progress& progress = {});
 
-/// The worst places: smears and holes, those closer than 5 mm in one layer and of one pair joined; by mm3, descending.
+/// A place, with what lies so near that people see one defect.
+struct Defect {
+  std::size_t place = 0;  // index into ScenarioResult::places: the worst one of it
+  float mm3 = 0;          // of all
+  float length_mm = 0;
+};
+
+/// Smears and holes, those closer than 5 mm in one layer and of one pair joined; by mm3, descending.
+std::vector<Defect> defects(const ScenarioResult& result);
+
+/// The worst of them as places, with the mm3 and length of all that is joined.
 std::vector<Place> worst_places(const ScenarioResult& result, std::size_t count);
 
 }  // namespace cleancolor

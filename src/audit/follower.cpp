@@ -82,6 +82,7 @@ void Follower::push(const Drive& drive, bool outer, const PrintedVisibility& vis
        .visibility = float(v),
        .length_mm = float(share * distance(from, to)),
        .layer = drive.layer,
+       .move = drive.move,
        .at_mm = from,
        .end_mm = lerp(from, to, share)});
 }
@@ -156,6 +157,7 @@ void Follower::trace(const Drive& drive, const Crossing& c, Place::Kind kind, do
          .over = c.over,
          .travel = !drive.extrudes(),
          .layer = drive.layer,
+         .move = drive.move,
          .at_mm = lerp(drive.from_mm, drive.to_mm, double(c.begin)) + offset,
          .end_mm = {}};
   p.end_mm = lerp(drive.from_mm, drive.to_mm, double(c.end)) + offset;

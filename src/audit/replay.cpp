@@ -48,7 +48,7 @@ struct Replay::State {
   bool runs = false;
   bool run_outer = false;  // its last move
   Vec2 run_end_mm;
-  std::uint32_t run_layer = 0;
+  std::uint32_t run_layer = 0, run_move = 0;
   std::uint8_t run_nozzle = 0;
 
   int refilled = -1;  // the nozzle whose refill pass is not over yet
@@ -61,7 +61,7 @@ struct Replay::State {
   void refill(const Drive& drive);
   void run(const Drive& drive, bool outer);
   void end_run();
-  void zipper(Vec2 at_mm, std::uint32_t layer, std::uint8_t nozzle);
+  void zipper(Place where);
   void use(const Drive& drive);
 };
 
@@ -131,32 +131,37 @@ void Replay::State::run(const Drive& drive, bool outer) {
   if (breaks) end_run();
   if (!drive.lays) return;
   const Vec2 offset = nozzle_offset_mm(machine, drive.feeds);
-  if (!runs && outer) zipper(drive.from_mm + offset, drive.layer, drive.feeds);
+  if (!runs && outer)
+    zipper({.nozzle = drive.feeds,
+            .layer = drive.layer,
+            .move = drive.move,
+            .at_mm = drive.from_mm + offset,
+            .end_mm = {}});
   runs = true;
   run_outer = outer;
   run_end_mm = drive.to_mm + offset;
   run_layer = drive.layer;
+  run_move = drive.move;
   run_nozzle = drive.feeds;
 }
 
 void Replay::State::end_run() {
-  if (runs && run_outer) zipper(run_end_mm, run_layer, run_nozzle);
+  if (runs && run_outer)
+    zipper({.nozzle = run_nozzle, .layer = run_layer, .move = run_move, .at_mm = run_end_mm, .end_mm = {}});
   runs = false;
 }
 
-void Replay::State::zipper(Vec2 at_mm, std::uint32_t layer, std::uint8_t nozzle) {
-  const double v = visibility.at({at_mm.x, at_mm.y, print.layers[layer].z_mm});
-  count(layer, &Figures::zippers, 1);
-  count(layer, &Figures::zippers_visible, v);
-  for (Follower& f : followers)
-    f.add({.kind = Place::Kind::zipper,
-           .nozzle = nozzle,
-           .over = nozzle,
-           .mm3 = 1,
-           .visibility = float(v),
-           .layer = layer,
-           .at_mm = at_mm,
-           .end_mm = at_mm});
+/// where: nozzle, layer, move and point.
+void Replay::State::zipper(Place where) {
+  where.kind = Place::Kind::zipper;
+  where.over = where.nozzle;
+  where.mm3 = 1;
+  where.end_mm = where.at_mm;
+  const double v = visibility.at({where.at_mm.x, where.at_mm.y, print.layers[where.layer].z_mm});
+  where.visibility = float(v);
+  count(where.layer, &Figures::zippers, 1);
+  count(where.layer, &Figures::zippers_visible, v);
+  for (Follower& f : followers) f.add(where);
 }
 
 /// Plastic that stays where it is pushed belongs to no road: it is thrown away.

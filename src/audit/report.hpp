@@ -40,6 +40,9 @@ std::string comparison_text(std::span<const AuditedFile> files);
 /// One JSON object with all files: docs/audit.schema.json ("schema": 1). Of the options only places counts.
 std::string audit_json(std::span<const AuditedFile> files, const ReportOptions& options = {});
 
+/// The object of one file in it.
+std::string audit_file_json(const AuditedFile& file, const ReportOptions& options = {});
+
 /// One self-contained page without scripts: figures, worst layers drawn, smear over height, four sides; several files
 /// side by side.
 std::string audit_html(std::span<const AuditedFile> files, const ReportOptions& options = {});

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "audit/machine_texts.hpp"
 #include "audit/ooze_keys.hpp"
 #include "audit/report.hpp"
 
@@ -17,11 +18,6 @@ Json number(double value) {
 
 Json point(Vec2 p) {
   return Json::array({number(p.x), number(p.y)});
-}
-
-std::string idle_name(IdleNozzle idle) {
-  constexpr const char* names[] = {"same_height", "lifted", "parked", "docked"};
-  return names[std::size_t(idle)];
 }
 
 std::string kind_name(Place::Kind kind) {
@@ -43,7 +39,7 @@ Json machine_json(const AuditMachine& machine) {
           {"offsets_source", machine.offsets_source},
           {"offsets_in", machine.offsets_in == OffsetsIn::slicer ? "slicer" : "firmware"},
           {"offsets_in_source", machine.offsets_in_source},
-          {"idle_nozzle", idle_name(machine.idle_nozzle)}};
+          {"idle_nozzle", idle_nozzle_word(machine.idle_nozzle)}};
 }
 
 Json print_json(const GcodePrint& print, const AuditResult& result) {
@@ -154,14 +150,21 @@ Json file_json(const AuditedFile& file, std::size_t places) {
           {"warnings", file.warnings}};
 }
 
+/// File names and comments need not be UTF-8; JSON must be.
+std::string text_of(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
+
+std::string audit_file_json(const AuditedFile& file, const ReportOptions& options) {
+  return text_of(file_json(file, options.places));
+}
 
 std::string audit_json(std::span<const AuditedFile> files, const ReportOptions& options) {
   Json all = Json::array();
   for (const AuditedFile& file : files) all.push_back(file_json(file, options.places));
-  const Json json = {{"schema", 1}, {"files", all}};
-  // File names and comments need not be UTF-8; JSON must be.
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of({{"schema", 1}, {"files", all}});
 }
 
 }  // namespace cleancolor

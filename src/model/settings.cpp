@@ -58,6 +58,13 @@ Config with_loaded(Config config, const std::filesystem::path& file, const Progr
 
 }  // namespace
 
+std::optional<ProtectionLevel> protection_level(std::string_view word) {
+  if (word == "full") return ProtectionLevel{};
+  if (word == "rampart") return ProtectionLevel{.turns = true, .set = {"planner=plain"}};
+  if (word == "none") return ProtectionLevel{.turns = false, .set = {"planner=plain", "rampart=off"}};
+  return std::nullopt;
+}
+
 Config config_of(const Settings& settings, const Progress& progress) {
   Config config = with_profiles(settings);
   if (!settings.load.empty()) config = with_loaded(std::move(config), settings.load, progress);

@@ -9,7 +9,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/progress.hpp"
@@ -24,6 +26,15 @@ struct Settings {
   std::filesystem::path load = {};    // PrusaSlicer's or Slic3r's configuration, or G-code that contains one
   std::vector<std::string> set = {};  // "layer_height=0.2"
 };
+
+/// The short form of what keeps the colours apart: "none", "rampart" or "full", as in `cleancolor slice --protect`.
+struct ProtectionLevel {
+  bool turns = true;                  // the parts may be turned: azimuth
+  std::vector<std::string> set = {};  // options that it stands for; what is set by name counts more
+};
+
+/// Nothing where there is no such level.
+std::optional<ProtectionLevel> protection_level(std::string_view word);
 
 /// Throws Error where a profile, file or option cannot be used, or where the options do not go together. Warns of what
 /// a loaded file contains and we ignore.

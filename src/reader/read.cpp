@@ -111,7 +111,11 @@ GcodePrint read_gcode(std::string text, const std::string& name, const Progress&
 }
 
 GcodePrint read_gcode_file(const std::filesystem::path& file, const Progress& progress) {
-  return read_gcode(end_of_file(file, std::numeric_limits<std::uint32_t>::max()), file.string(), progress);
+  return read_gcode(gcode_text(file), file.string(), progress);
+}
+
+std::string gcode_text(const std::filesystem::path& file) {
+  return end_of_file(file, std::numeric_limits<std::uint32_t>::max());
 }
 
 }  // namespace cleancolor

@@ -33,6 +33,9 @@ namespace cleancolor {
 /// Cost: at least 40 MB/s on one core; memory: the text and 64 bytes a move.
 GcodePrint read_gcode_file(const std::filesystem::path& file, const Progress& progress = {});
 
+/// The text of such a file.  Throws as read_gcode_file does, where it cannot be read.
+std::string gcode_text(const std::filesystem::path& file);
+
 /// The same for a text in memory; name: for messages.
 GcodePrint read_gcode(std::string text, const std::string& name, const Progress& progress = {});
 

@@ -113,7 +113,7 @@ TEST(CommandLine, RefusesWhatItDoesNotUnderstand) {
   }
   EXPECT_ERROR(parse_command_line({}), "see cleancolor --help");
   EXPECT_ERROR(parse_command_line({"print"}),
-               "there is no command 'print'; known are slice, azimuth, audit, explain, profiles, options");
+               "there is no command 'print'; known are slice, azimuth, audit, explain, view, profiles, options");
   EXPECT_ERROR(parse_command_line({"profiles", "show"}), "name");
   EXPECT_ERROR(parse_command_line({"profiles", "a", "b"}), "a");
 }
@@ -182,6 +182,29 @@ TEST(SliceRequest, RefusesOnePlaceForBothOutputs) {
   EXPECT_ERROR(slice_request(slice_of({file, "-o", folder.path("new"), "--preview", folder.path("./new")}), {}),
                "output and --preview are the same file");
   EXPECT_NO_THROW(slice_request(slice_of({file, "-o", folder.path("new"), "--preview", folder.path("new.png")}), {}));
+}
+
+ViewCommand view_of(Words words) {
+  words.insert(words.begin(), "view");
+  return std::get<ViewCommand>(parse_command_line(words));
+}
+
+TEST(CommandLine, ViewTellsPrintsFromMeshesByTheirEndings) {
+  const TestFolder folder;
+  const std::string gcode = folder.file("a.GCODE", ""), mesh = folder.file("b.3mf", ""),
+                    text = folder.file("c.txt", "");
+  const ViewCommand c =
+      view_of({gcode, "--printer", "p", mesh, "--port", "0", "--no-browser", "--nozzle-offset", "0x0,33x0"});
+  EXPECT_EQ(c.prints, (std::vector<std::filesystem::path>{gcode}));
+  EXPECT_EQ(c.meshes, (std::vector<std::filesystem::path>{mesh}));
+  EXPECT_EQ(c.port, 0);
+  EXPECT_FALSE(c.browser);
+  EXPECT_EQ(c.nozzle_offset_mm.size(), 2u);
+  EXPECT_EQ(view_of({}).port, std::nullopt);
+  EXPECT_EQ(view_of({}).address, "127.0.0.1");
+  EXPECT_ERROR(view_of({text}), "neither G-code nor a mesh");
+  EXPECT_ERROR(view_of({folder.path("none.gcode")}), "there is no such file");
+  EXPECT_ERROR(view_of({"--port", "65536"}), "is not a port");
 }
 
 }  // namespace

@@ -220,5 +220,18 @@ TEST(Program, FindsOptionsByTheHeadingTheyStandUnder) {
   }
 }
 
+TEST(Program, ViewPrintsItsAddressAndLeavesNothingWhenItIsInterrupted) {
+  const TestFolder folder;
+  put_two_boxes(folder);
+  const Outcome r = run(folder, "view a.stl --no-browser --port 0 --printer replicator-dual",
+                        "TMPDIR=. timeout --preserve-status -s INT 2");
+  EXPECT_EQ(r.exit_code, exit_done) << r.err;
+  EXPECT_EQ(r.out.substr(0, 17), "http://127.0.0.1:");
+  EXPECT_NE(r.out.find("/?token="), r.out.npos);
+  EXPECT_EQ(r.err, "");
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path(".")))
+    EXPECT_FALSE(entry.is_directory()) << entry.path();
+}
+
 }  // namespace
 }  // namespace cleancolor

@@ -1,0 +1,71 @@
+// Slicing from the page: upload, an error at its field, progress, queue and cancel, reload, download.
+import assert from "node:assert/strict";
+import path from "node:path";
+import { audited, open_page, picture, root, test } from "./harness.mjs";
+
+const model = (name) => path.join(root, "models", name);
+
+export async function slicing(chrome, address) {
+  const page = await open_page(chrome, address);
+  const job = (id, state) => page.waitForSelector(`#jobs li[data-job="${id}"][data-state="${state}"]`, { timeout: 60000 });
+
+  await test("meshes uploaded open the slicing panel, each with an extruder of its own", async () => {
+    await page.waitForSelector("#option-layer_height", { state: "attached" });
+    await page.setInputFiles("#file", [model("4-cones_black.stl"), model("4-cones_white.stl")]);
+    await page.waitForFunction(() => document.querySelectorAll(".parts li").length === 2);
+    assert.deepEqual(await page.locator(".parts select").evaluateAll((all) => all.map((s) => s.value)), ["0", "1"]);
+    await picture(page, "slice");
+  });
+
+  await test("a value out of range is told in words at its field", async () => {
+    await page.fill("#option-layer_height", "99");
+    await page.keyboard.press("Tab");
+    await page.click("#slice");
+    const error = page.locator("#option-layer_height-error");
+    await error.waitFor({ state: "visible" });
+    assert.match(await error.textContent(), /layer_height/);
+    await picture(page, "slice-error");
+    await page.fill("#option-layer_height", "0.3");
+    await page.keyboard.press("Tab");
+  });
+
+  await test("all options are there, and can be searched", async () => {
+    await page.click("#all-options > summary");
+    await page.fill("#option-search", "retract");
+    const shown = await page.locator(".all-options .option:visible").count();
+    assert.ok(shown > 2 && shown < 40, `${shown} options`);
+    await page.click("#all-options > summary");
+  });
+
+  await test("a job is queued behind another, both can be cancelled, and a reload finds them", async () => {
+    await page.fill("#option-layer_height", "0.05");
+    await page.keyboard.press("Tab");
+    await page.click("#slice");
+    await page.waitForSelector('#jobs li[data-job="1"]');
+    await page.click("#slice");
+    await page.waitForSelector('#jobs li[data-job="2"]');
+    await page.locator('#jobs li[data-job="2"] button', { hasText: "Cancel" }).click();
+    await page.locator('#jobs li[data-job="1"] button', { hasText: "Cancel" }).click();
+    await job(2, "cancelled");
+    await job(1, "cancelled");
+    await page.reload();
+    await page.click("#tab-slice");
+    await job(1, "cancelled");
+    await page.waitForFunction(() => document.querySelectorAll(".parts li").length === 2);
+  });
+
+  await test("a job that ends well is shown, and its G-code can be downloaded", async () => {
+    await page.fill("#option-layer_height", "0.32");
+    await page.keyboard.press("Tab");
+    await page.click("#slice");
+    await job(3, "done");
+    await picture(page, "sliced");
+    await audited(page);
+    const [file] = await Promise.all([page.waitForEvent("download"), page.click('#jobs li[data-job="3"] a')]);
+    assert.match(file.suggestedFilename(), /\.gcode$/);
+    await picture(page, "sliced");
+    // The 400 of the value out of range is the one complaint there is.
+    assert.deepEqual(page.troubles.filter((t) => !/status of 400/.test(t)), []);
+  });
+  await page.context().close();
+}

@@ -1,0 +1,130 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { unpack } from "../../../viewer/page/src/data/arrays.ts";
+import { by_layer } from "../../../viewer/page/src/data/print.ts";
+import { after_move, carriage_at, later, layer_at, steps_of, time_at } from "../../../viewer/page/src/model/moment.ts";
+import { Ooze } from "../../../viewer/page/src/model/ooze.ts";
+import { mix, nozzle_colours, parse_colour, rgba } from "../../../viewer/page/src/model/palette.ts";
+import { add_layer, level_roads, levels, RoadBuffer } from "../../../viewer/page/src/model/roads.ts";
+import { found, job_request, kind_of_file, standing_value, with_printer, type Choice } from "../../../viewer/page/src/model/slicing.ts";
+import { audit_with, moves_from, type Line } from "./prints.ts";
+
+const all = () => true;
+const circle = (n: number, layer: number): Line[] => Array.from({ length: n + 1 }, (_, i) => [20 * Math.cos((2 * Math.PI * i) / n), 20 * Math.sin((2 * Math.PI * i) / n), 0.2 * (layer + 1), i > 0, 0, layer]);
+const finished = <T>(g: Generator<void, T>): T => { for (;;) { const s = g.next(); if (s.done) return s.value; } };
+
+test("an answer without the magic is refused, and one that ends within its header", () => {
+  assert.throws(() => unpack(new TextEncoder().encode("HTTP/1.1 404 nothing").buffer as ArrayBuffer), /CCARRAY1/);
+  const cut = new Uint8Array(16);
+  cut.set(new TextEncoder().encode("CCARRAY1"));
+  cut[8] = 200;
+  assert.throws(() => unpack(cut.buffer), /header/);
+});
+
+test("arrays are read at their offsets", () => {
+  const json = JSON.stringify({ arrays: { a: { type: "f32", components: 1, count: 2, offset: 0 }, b: { type: "u8", components: 3, count: 1, offset: 8 } } });
+  const length = Math.ceil((12 + json.length) / 8) * 8 - 12;
+  const bytes = new Uint8Array(12 + length + 16);
+  bytes.set(new TextEncoder().encode("CCARRAY1"));
+  new DataView(bytes.buffer).setUint32(8, length, true);
+  bytes.set(new TextEncoder().encode(json.padEnd(length)), 12);
+  new Float32Array(bytes.buffer, 12 + length, 2).set([1.5, -2]);
+  bytes.set([7, 8, 9], 12 + length + 8);
+  const { columns } = unpack(bytes.buffer);
+  assert.deepEqual([...columns["a"]!], [1.5, -2]);
+  assert.deepEqual([...columns["b"]!], [7, 8, 9]);
+});
+
+test("moves of a layer that is come back to stay together, in the order of the file", () => {
+  const { order, layer_start } = by_layer(Uint32Array.from([0, 1, 0, 1, 2]), 3);
+  assert.deepEqual([...order], [0, 2, 1, 3, 4]);
+  assert.deepEqual([...layer_start], [0, 2, 4, 5]);
+});
+
+test("every move that lays plastic is a road at full detail; chords on one line are one", () => {
+  const square: Line[] = [[0, 0, 0.2, false, 0, 0], [10, 0, 0.2, true, 0, 0], [10, 10, 0.2, true, 0, 0], [0, 10, 0.2, false, 0, 0], [0, 5, 0.2, true, 0, 0], [0, 0, 0.2, true, 0, 0]];
+  const out = new RoadBuffer(1);
+  add_layer(out, moves_from(square), 0, all, levels[0]!);
+  assert.deepEqual([...out.move.subarray(0, out.count)], [1, 2, 4]);
+});
+
+test("a road begins where its own nozzle was, whichever nozzle came before", () => {
+  const moves = moves_from([[0, 0, 0.2, false, 0, 0], [5, 5, 0.2, true, 0, 0], [9, 5, 0.2, true, 1, 0]]);
+  const out = new RoadBuffer();
+  add_layer(out, moves, 0, all, levels[0]!);
+  assert.deepEqual([...new Float32Array(out.words.buffer).subarray(8, 10)], [15, 5]);
+});
+
+test("coarse levels stay within their tolerance of the circle they draw", () => {
+  const moves = moves_from(circle(720, 0));
+  for (const level of levels) {
+    const out = new RoadBuffer();
+    add_layer(out, moves, 0, all, { ...level, stride: 1 });
+    const f = new Float32Array(out.words.buffer);
+    for (let k = 0; k < out.count; k++) {
+      const middle = Math.hypot((f[8 * k]! + f[8 * k + 4]!) / 2, (f[8 * k + 1]! + f[8 * k + 5]!) / 2);
+      assert.ok(20 - middle <= level.tolerance_mm + 1e-3, `${20 - middle} over ${level.tolerance_mm}`);
+    }
+    if (level.tolerance_mm >= 0.05) assert.ok(out.count < 100, `${out.count} roads`);
+  }
+});
+
+test("a coarse level draws the top layer of each group", () => {
+  const moves = moves_from([0, 1, 2, 3, 4].flatMap((l) => circle(12, l)));
+  const roads = finished(level_roads(moves, { tolerance_mm: 0.001, stride: 2 }, all));
+  assert.deepEqual([...roads.layer_end], [0, 12, 12, 24, 24]);
+});
+
+test("time and moment are inverse; play goes over to the next layer", () => {
+  const moves = moves_from([...circle(4, 0), ...circle(4, 1)]);
+  const at = later(moves, { layer: 0, step: 0, share: 0 }, 6.25);
+  assert.deepEqual(at, { layer: 1, step: 1, share: 0.25 });
+  assert.ok(Math.abs(time_at(moves, at) - 6.25) < 1e-6);
+  assert.deepEqual(later(moves, at, 1e9), { layer: 1, step: steps_of(moves, 1), share: 0 });
+  assert.deepEqual(after_move(moves, 6), { layer: 1, step: 2, share: 0 });
+});
+
+test("the carriage is half way when half of the move is done", () => {
+  const moves = moves_from([[0, 0, 0.2, false, 0, 0], [10, 0, 0.2, true, 0, 0]]);
+  assert.deepEqual(carriage_at(moves, { layer: 0, step: 1, share: 0.5 }).slice(0, 2), [5, 0]);
+});
+
+test("layers of two prints meet by height", () => {
+  assert.equal(layer_at(Float32Array.from([0.3, 0.6, 0.9]), 0.5), 1);
+  assert.equal(layer_at(Float32Array.from([0.3, 0.6, 0.9]), 50), 2);
+});
+
+test("a nozzle carries nothing while it prints, then V (1 - exp(-t / tau)) less what it has left", () => {
+  const lines: Line[] = [[0, 0, 0.2, false, 0, 0], [1, 0, 0.2, true, 0, 0], [2, 0, 0.2, true, 1, 0], [3, 0, 0.2, true, 1, 0], [4, 0, 0.2, true, 1, 0]];
+  const moves = moves_from(lines), ooze = new Ooze(moves, 2);
+  assert.equal(ooze.carried_mm3(0, 1, 1.5), 0);
+  const free = 2 * (1 - Math.exp(-3 / 20));
+  assert.ok(Math.abs(ooze.carried_mm3(0, 4, 5) - free) < 1e-6);
+  ooze.set_audit(audit_with([{ kind: 4, nozzle: 0, move: 3, mm3: 0.1 }, { kind: 3, nozzle: 0, move: 3, mm3: 9 }], 5));
+  assert.ok(Math.abs(ooze.carried_mm3(0, 4, 5) - (free - 0.1)) < 1e-6);
+});
+
+test("nozzles of one colour are told apart", () => {
+  const [a, b] = nozzle_colours(["#808080", "#808080"]);
+  assert.notEqual(a, b);
+  assert.equal(mix(rgba(0, 0, 0), rgba(200, 100, 50), 0.5), rgba(100, 50, 25));
+  assert.equal(parse_colour("#0A141E"), rgba(10, 20, 30));
+});
+
+const profiles = [
+  { group: "printer" as const, name: "p", description: "", extruders: 3, default_material: "abs", default_print: "fine", settings: { layer_height: "0.3" } },
+  { group: "print" as const, name: "fine", description: "", settings: { layer_height: "0.1" } },
+];
+const empty: Choice = { printer: "", print: "", materials: [], protect: "full", meshes: [{ id: 4, extruder: 5 }], changed: new Map([["perimeters", "2"]]) };
+
+test("a printer brings its materials and print settings, and parts keep to its extruders", () => {
+  const c = with_printer(empty, profiles, "p");
+  assert.deepEqual(job_request(c), { meshes: [{ id: 4, extruder: 2 }], printer: "p", materials: ["abs", "abs", "abs"], print: "fine", protect: "full", settings: { perimeters: "2" } });
+  const option = { name: "layer_height", group: "print" as const, section: "Layers", kind: "number" as const, unit: "mm", per_extruder: false, help: "height of a layer", default: "0.2" };
+  assert.equal(standing_value(option, profiles, c), "0.1");
+  assert.ok(found(option, "layer hei") && !found(option, "layer fan"));
+});
+
+test("files are known by their names", () => {
+  assert.deepEqual(["a.STL", "b.gcode", "c.3mf", "d.exe"].map(kind_of_file), ["mesh", "gcode", "mesh", null]);
+});

@@ -1,0 +1,134 @@
+// Looking at prints: two of the globe (with and without protection), every colouring, defects, keyboard, phone, dark.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { at, audited, axe_source, finished, open_page, picture, settled, test } from "./harness.mjs";
+
+const seriously = async (page) => {
+  await page.evaluate(readFileSync(axe_source, "utf8")); // as the page's policy forbids scripts of others
+  const found = await page.evaluate(async () => (await window.axe.run(document)).violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`));
+  assert.deepEqual(found, []);
+};
+
+export async function viewing(chrome, address) {
+  const page = await open_page(chrome, address);
+  const request = (path) => page.request.get(new URL(path, address).href).then((r) => r.json());
+
+  await test("two prints given are shown side by side, with one set of controls", async () => {
+    await audited(page);
+    await finished(page);
+    assert.equal(await page.evaluate(() => window.cleancolor.viewer.sides.length), 2);
+    await picture(page, "side-by-side");
+    await page.evaluate(() => window.cleancolor.viewer.go({ layer: 60 }));
+    const z = await page.evaluate(() => window.cleancolor.viewer.sides.map((s) => s.moves.layer_z[s.view.shown.layer]));
+    assert.ok(Math.abs(z[0] - z[1]) < 0.2, `heights ${z}`);
+    await page.selectOption("#compare", "");
+    await page.waitForFunction(() => window.cleancolor.viewer.sides.length === 1);
+    await audited(page);
+    await finished(page);
+  });
+
+  await test("moves, layers, tool changes and defects drawn are those of the audit's JSON", async () => {
+    const [print] = await request("/api/prints");
+    const audit = await request(`/api/prints/${print.id}/audit.json`);
+    const { summary } = await request(`/api/prints/${print.id}`);
+    const [counts] = await page.evaluate(() => window.cleancolor.counts());
+    assert.equal(counts.moves, summary.moves);
+    assert.equal(counts.layers, audit.print.layers);
+    assert.equal(counts.tool_changes, audit.print.tool_changes);
+    const places = audit.scenarios.worst.places;
+    assert.equal(counts.defects, places.length);
+    await page.selectOption("#colouring", "smear");
+    const smears = await page.evaluate(() => { const p = window.cleancolor.viewer.first.audit.places; let n = 0; for (let k = 0; k < p.count; k++) if (p.kind[k] === 0 && p.mm3[k] * p.visibility[k] > 2e-4) n++; return n; });
+    assert.equal((await page.evaluate(() => window.cleancolor.counts()))[0].places_drawn, smears);
+  });
+
+  await test("the layer and move sliders change what is drawn", async () => {
+    const drawn = async () => { await settled(page); return page.evaluate(() => ({ ...window.cleancolor.counts()[0], roads: window.cleancolor.counters.roads })); };
+    await page.locator("#layer").fill("80");
+    assert.equal((await at(page)).layer, 80);
+    const whole = await drawn();
+    await page.locator("#move").fill("20");
+    assert.equal((await at(page)).step, 20);
+    assert.ok((await drawn()).top < whole.top);
+    await page.locator("#from-layer").fill("40");
+    assert.equal((await at(page)).from, 40);
+    await picture(page, "layer");
+    await page.locator("#from-layer").fill("0");
+    const box = await page.locator(".profile").boundingBox();
+    await page.mouse.click(box.x + 20, box.y + box.height * 0.25);
+    const there = await at(page);
+    assert.ok(Math.abs(there.layer / there.layers - 0.75) < 0.03, "a click on the profile goes to its layer");
+  });
+
+  await test("every colouring draws a picture of its own", async () => {
+    await page.evaluate(() => { const v = window.cleancolor.viewer; v.go({ layer: v.first.moves.layer_z.length - 1 }); });
+    const seen = new Set();
+    for (const colouring of await page.locator("#colouring option").evaluateAll((all) => all.map((o) => o.value))) {
+      await page.selectOption("#colouring", colouring);
+      await settled(page);
+      seen.add((await page.locator(".picture").screenshot({ path: new URL(`../../build/page-test/colour-${colouring}.png`, import.meta.url).pathname })).toString("base64"));
+      assert.ok((await page.locator(".legend li").count()) > 0);
+    }
+    assert.equal(seen.size, 8);
+    await page.selectOption("#colouring", "extruder");
+  });
+
+  await test("a click on a defect takes sliders, camera and marker there", async () => {
+    const before = await page.evaluate(() => window.cleancolor.viewer.stage.camera.position.toArray());
+    await page.locator("#defects button").nth(1).click();
+    const place = await page.evaluate(() => { const v = window.cleancolor.viewer, p = v.first.audit.places, k = v.selected.place; return { layer: v.first.moves.layer[p.move[k]], marker: v.marker.object.position.toArray(), from: [...p.from.slice(3 * k, 3 * k + 3)] }; });
+    assert.equal((await at(page)).layer, place.layer);
+    assert.ok(Math.hypot(...place.marker.map((x, c) => x - place.from[c])) < 6);
+    await page.waitForTimeout(100);
+    assert.notDeepEqual(await page.evaluate(() => window.cleancolor.viewer.stage.camera.position.toArray()), before);
+    await picture(page, "defect");
+  });
+
+  await test("the keyboard does all of it, and ? tells how", async () => {
+    await page.locator(".picture").focus();
+    await page.keyboard.press("h");
+    await page.evaluate(() => window.cleancolor.viewer.go({ layer: 50 }));
+    await page.keyboard.press("ArrowUp");
+    await page.keyboard.press("Shift+ArrowDown");
+    assert.equal((await at(page)).layer, 41);
+    await page.keyboard.press("Home");
+    await page.keyboard.press("ArrowRight");
+    assert.equal((await at(page)).step, 1);
+    await page.keyboard.press(" ");
+    await page.waitForFunction(() => window.cleancolor.viewer.at.step > 3 || window.cleancolor.viewer.at.layer > 41);
+    await page.keyboard.press(" ");
+    assert.equal(await page.evaluate(() => window.cleancolor.viewer.playing), false);
+    await page.keyboard.press("n");
+    assert.ok(await page.evaluate(() => window.cleancolor.viewer.selected));
+    await page.keyboard.press("?");
+    assert.ok(await page.locator("#help").isVisible());
+    await picture(page, "keys");
+    await page.click("#help button");
+    assert.ok(!(await page.locator("#help").isVisible()));
+  });
+
+  await test("the G-code can be downloaded", async () => {
+    const [file] = await Promise.all([page.waitForEvent("download"), page.click("#download")]);
+    assert.match(file.suggestedFilename(), /\.gcode$/);
+  });
+
+  await test("axe-core finds nothing serious, and the console is silent", async () => {
+    for (const tab of ["figures", "slice", "defects"]) { await page.click(`#tab-${tab}`); await seriously(page); }
+    await page.click("#tab-figures");
+    await picture(page, "figures");
+    assert.deepEqual(page.troubles, []);
+  });
+  await page.context().close();
+
+  await test("at phone width nothing is cut off; dark is dark", async () => {
+    const phone = await open_page(chrome, address, { viewport: { width: 390, height: 844 }, colorScheme: "dark", hasTouch: true });
+    await audited(phone);
+    await finished(phone);
+    assert.ok(await phone.evaluate(() => document.documentElement.scrollWidth <= 390));
+    assert.ok(await phone.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).every((c) => c < 60)));
+    await seriously(phone);
+    await picture(phone, "phone-dark");
+    assert.deepEqual(phone.troubles, []);
+    await phone.context().close();
+  });
+}

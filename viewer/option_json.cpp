@@ -1,0 +1,108 @@
+#include "viewer/option_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "model/options.hpp"
+#include "model/profile.hpp"
+
+namespace cleancolor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view kind_word(OptionKind kind) {
+  switch (kind) {
+    case OptionKind::flag:
+      return "flag";
+    case OptionKind::integer:
+      return "integer";
+    case OptionKind::number:
+      return "number";
+    case OptionKind::percent:
+      return "percent";
+    case OptionKind::length_or_share:
+      return "length_or_share";
+    case OptionKind::text:
+      return "text";
+    case OptionKind::choice:
+      return "choice";
+    case OptionKind::point:
+      return "point";
+    case OptionKind::polygon:
+      return "polygon";
+  }
+  return "text";
+}
+
+bool is_number(OptionKind kind) {
+  return kind == OptionKind::integer || kind == OptionKind::number || kind == OptionKind::percent ||
+         kind == OptionKind::length_or_share;
+}
+
+Json limit(const Option& option, double value) {
+  return is_number(option.kind()) && std::isfinite(value) ? Json(value) : Json();
+}
+
+Json option_json(const Option& option) {
+  Json choices = Json::array();
+  for (const std::string_view choice : option.choices()) choices.push_back(choice);
+  return {{"name", option.name},
+          {"group", group_name(option.group)},
+          {"section", option.section},
+          {"kind", kind_word(option.kind())},
+          {"unit", option.unit},
+          {"min", limit(option, option.min)},
+          {"max", limit(option, option.max)},
+          {"choices", choices},
+          {"per_extruder", option.per_extruder()},
+          {"help", option.help},
+          {"default", option_text(Config{}, option.name)}};
+}
+
+Json profile_json(const Profile& profile, bool chosen) {
+  const Config config = with_profile(Config{}, profile);
+  Json settings = Json::object();
+  for (const ProfileSetting& s : profile.settings)
+    settings[std::string(s.option->name)] = option_text(config, s.option->name);
+  Json json = {{"group", group_name(profile.group)}, {"name", profile.name}, {"description", profile.description}};
+  if (profile.group == OptionGroup::printer) {
+    json["extruders"] = config.extruders.size();
+    json["default_material"] = profile.default_material;
+    json["default_print"] = profile.default_print;
+    json["audit_only"] = config.audit_only;
+    json["chosen"] = chosen;
+  }
+  json["settings"] = settings;
+  return json;
+}
+
+std::string text(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string options_json() {
+  Json all = Json::array();
+  for (const Option& option : options()) all.push_back(option_json(option));
+  return text(all);
+}
+
+std::string profiles_json(const std::string& own_printer) {
+  Json all = Json::array();
+  bool built_in = own_printer.empty();
+  for (const BuiltInProfile& p : builtin_profiles()) {
+    const bool chosen = p.group == OptionGroup::printer && p.name == own_printer;
+    all.push_back(profile_json(find_profile(p.group, std::string(p.name)), chosen));
+    built_in = built_in || chosen;
+  }
+  if (!built_in) {
+    Profile own = find_profile(OptionGroup::printer, own_printer);
+    own.name = own_printer;  // by which jobs name it
+    all.insert(all.begin(), profile_json(own, true));
+  }
+  return text(all);
+}
+
+}  // namespace cleancolor

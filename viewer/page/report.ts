@@ -1,0 +1,19 @@
+// The report: the page's viewer over prints that stand in the same file (src/data/embedded.ts). It is drawn into the
+// element with the id "cleancolor-report".
+import "./src/style.css";
+import { EmbeddedSource } from "./src/data/embedded.ts";
+import { set_test_hooks } from "./src/test_hooks.ts";
+import { viewer_layout } from "./src/ui/viewer_layout.ts";
+
+function start(): void {
+  const page = document.getElementById("cleancolor-report");
+  if (!page) return;
+  page.classList.add("report");
+  const { viewer, main, help, say } = viewer_layout([]);
+  page.append(main, help);
+  set_test_hooks(viewer);
+  const names = (page.dataset["names"] ?? "").split("\n");
+  const sources = Array.from({ length: EmbeddedSource.count() }, (_, n) => ({ name: names[n] || `print ${n + 1}`, source: new EmbeddedSource(n) }));
+  viewer.open(sources, say).catch((e: unknown) => say(e instanceof Error ? e.message : String(e)));
+}
+if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", start); else start();

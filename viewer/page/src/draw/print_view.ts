@@ -1,0 +1,243 @@
+// One print in the scene: body, the layers at the cut in full, places of damage, nozzles, lines. It is told what to
+// show and chooses before each frame how finely.
+import * as THREE from "three";
+import { box_of, kinds, type Audit, type Moves, type Summary } from "../data/print.ts";
+import { painted, place_colour, places_of, type Colouring, type Legend } from "../model/colouring.ts";
+import type { Rgba } from "../model/palette.ts";
+import { add_layer, levels, RoadBuffer, words_per_road } from "../model/roads.ts";
+import { bed } from "./bed.ts";
+import { Body } from "./body.ts";
+import { Idle } from "./idle.ts";
+import { road_material, RoadChunk } from "./roads_mesh.ts";
+import type { Stage, View } from "./stage.ts";
+
+export interface Shown {
+  from_layer: number;
+  layer: number;
+  step: number; // moves of the layer that are done
+  share: number; // of the move after those
+}
+export type RampartShown = "whole" | "open" | "hidden";
+export interface Look { colouring: Colouring; rampart: RampartShown; travel: boolean; idle: boolean; dark: boolean }
+
+// Below the cut, infill shows through the layers above it: so many layers are drawn in full.
+const fewest_full = 3, most_full = 14, full_roads = 9000;
+const exact = levels[0]!;
+
+export class PrintView implements View {
+  readonly scene = new THREE.Scene();
+  readonly material = road_material();
+  readonly place_material = road_material();
+  readonly idle: Idle;
+  legend: Legend = { entries: [] };
+  audit: Audit | null = null;
+  private readonly body: Body;
+  private readonly root = new THREE.Group();
+  private top: RoadChunk | null = null;
+  private under: RoadChunk | null = null;
+  private floor: RoadChunk | null = null;
+  private places: RoadChunk | null = null;
+  private place_end: Uint32Array = new Uint32Array();
+  private place_index: Uint32Array = new Uint32Array();
+  private bed_group = new THREE.Group();
+  private colour: (move: number) => Rgba = () => 0;
+  private painting = 0;
+  shown: Shown;
+  private look: Look;
+  private under_key = "";
+  private first_drawn: (() => void) | null = null;
+  readonly first_picture = new Promise<void>((r) => { this.first_drawn = r; });
+
+  constructor(readonly summary: Summary, readonly moves: Moves, private readonly stage: Stage, look: Look) {
+    this.look = look;
+    this.shown = { from_layer: 0, layer: moves.layer_z.length - 1, step: Infinity, share: 0 };
+    this.body = new Body(moves, this.material);
+    this.idle = new Idle(summary, moves);
+    this.scene.matrixAutoUpdate = false;
+    this.scene.add(this.root);
+    this.root.add(this.bed_group, this.body.group, this.idle.group);
+    this.place_material.uniforms.grow.value = 0.08;
+    const [low, high] = box_of(summary);
+    for (const m of [this.material, this.place_material]) m.uniforms.middle.value.set((low[0] + high[0]) / 2, (low[1] + high[1]) / 2);
+    this.set_look(look);
+    this.body.build((mesh) => stage.upload(mesh), (chunk) => this.paint(chunk), () => stage.ask());
+  }
+
+  set_audit(audit: Audit): void {
+    this.audit = audit;
+    this.idle.set_audit(audit);
+    this.body.refine(audit.visibility, (mesh) => this.stage.upload(mesh), (chunk) => this.paint(chunk), () => this.stage.ask());
+    this.recolour();
+  }
+
+  set_look(look: Look): void {
+    const repaint = look.colouring !== this.look.colouring || look.dark !== this.look.dark || this.painting === 0;
+    const dark_changed = look.dark !== this.look.dark;
+    this.look = look;
+    this.material.uniforms.rampart.value = { hidden: 0, open: 1, whole: 2 }[look.rampart];
+    this.idle.set_look(look);
+    if (this.bed_group.children.length === 0 || dark_changed) {
+      this.bed_group.clear();
+      this.bed_group.add(bed(this.summary, look.dark));
+    }
+    if (repaint) this.recolour(); else this.stage.ask();
+  }
+
+  show(shown: Shown): void {
+    const layer_changed = shown.layer !== this.shown.layer || shown.from_layer !== this.shown.from_layer;
+    this.shown = shown;
+    if (layer_changed) this.place_cut();
+    this.show_step();
+  }
+
+  has_layers_of(z_mm: number): boolean { return z_mm <= this.moves.layer_z[this.moves.layer_z.length - 1]! + 1e-3; }
+
+  prepare(pixels_per_mm: number, budget_roads: number): number {
+    if (!this.top) this.place_cut();
+    const { layer } = this.shown;
+    const height_mm = this.moves.layer_height[layer] ?? 0.2;
+    this.material.uniforms.detail.value = this.place_material.uniforms.detail.value = Math.max(0, Math.min(1, (height_mm * pixels_per_mm - 1.5) / 3.5));
+    // The coarsest level whose chords err by less than half a pixel and whose layers are not told apart.
+    let wanted = 0;
+    while (wanted + 1 < levels.length && levels[wanted + 1]!.tolerance_mm * pixels_per_mm < 0.6 && levels[wanted + 1]!.stride * height_mm * pixels_per_mm < 2.6) wanted++;
+    const level = this.body.affordable(wanted, Math.max(0, layer - 1), budget_roads);
+    const left = this.body.show(level, layer - 1);
+    this.fill_under(Math.max(this.shown.from_layer, left), level >= 0);
+    for (const chunk of [...this.body.chunks(level)]) this.paint(chunk);
+    if (level >= 0 && this.first_drawn) { const done = this.first_drawn; this.first_drawn = null; void this.stage.frame_done().then(done); }
+    const chunk_roads = (c: RoadChunk | null) => c?.shown ?? 0;
+    return this.body.roads(level, layer - 1) + chunk_roads(this.top) + chunk_roads(this.under) + chunk_roads(this.floor) + chunk_roads(this.places);
+  }
+
+  /** Pieces drawn of each kind, for tests. */
+  counts(): Record<string, number> {
+    const chunk = (c: RoadChunk | null) => c?.shown ?? 0;
+    return { top: chunk(this.top), under: chunk(this.under), floor: chunk(this.floor), places_drawn: chunk(this.places), finished: this.body.finished() ? 1 : 0 };
+  }
+
+  dispose(): void {
+    this.body.dispose();
+    for (const c of [this.top, this.under, this.floor, this.places]) c?.dispose();
+    this.idle.dispose();
+  }
+
+  private chunk_of(buffer: RoadBuffer): RoadChunk {
+    const n = buffer.count;
+    const chunk = new RoadChunk(buffer.words.subarray(0, words_per_road * n), buffer.move.subarray(0, n), this.material);
+    this.paint(chunk);
+    this.root.add(chunk.mesh);
+    return chunk;
+  }
+
+  /** The layer at the cut, and the lowest shown, in full. */
+  private place_cut(): void {
+    const { layer, from_layer } = this.shown;
+    const { layer_z, layer_height } = this.moves;
+    const z = from_layer > 0 ? layer_z[from_layer]! - (layer_height[from_layer] ?? 0.2) * 0.5 : -1e9;
+    this.material.uniforms.cut_below_z.value = this.place_material.uniforms.cut_below_z.value = z;
+    this.top?.dispose();
+    const top = new RoadBuffer();
+    add_layer(top, this.moves, layer, () => true, exact);
+    this.top = this.chunk_of(top);
+    this.floor?.dispose();
+    this.floor = null;
+    if (from_layer > 0 && from_layer < layer) {
+      const floor = new RoadBuffer();
+      add_layer(floor, this.moves, from_layer, () => true, exact);
+      this.floor = this.chunk_of(floor);
+      this.floor.show(floor.count);
+    }
+    this.under_key = "";
+    this.idle.set_layer(layer);
+    this.show_step();
+  }
+
+  private show_step(): void {
+    const { layer, step, share } = this.shown;
+    const { order, layer_start } = this.moves;
+    const first = layer_start[layer]!, end = layer_start[layer + 1]!;
+    const k = Math.min(end, first + step);
+    const last = k > first ? order[k - 1]! : -1;
+    // Pieces are in the order of the moves: those that begin with a move done are drawn.
+    if (this.top) {
+      const { move } = this.top;
+      let lo = 0, hi = move.length;
+      while (lo < hi) { const m = (lo + hi) >> 1; if (move[m]! <= last) lo = m + 1; else hi = m; }
+      this.top.show(lo);
+    }
+    if (this.places) this.places.show(this.places_until(layer, k < end ? last : Infinity));
+    this.idle.set_step(k - first, share);
+    this.stage.move();
+  }
+
+  private places_until(layer: number, move: number): number {
+    const at = this.audit!.places.move;
+    const begin = layer > 0 ? this.place_end[layer - 1]! : 0;
+    let n = this.place_end[layer] ?? 0;
+    while (n > begin && at[this.place_index[n - 1]!]! > move) n--;
+    return n;
+  }
+
+  /** Layers just below the cut: the highest few in full, of others that the body's level leaves out what can be seen. */
+  private fill_under(left: number, body: boolean): void {
+    const { layer, from_layer } = this.shown;
+    const { layer_start } = this.moves;
+    let full = layer; // lowest layer drawn in full
+    while (full > from_layer && (layer - full < fewest_full || (layer - full < most_full && layer_start[layer]! - layer_start[full - 1]! < full_roads))) full--;
+    const first = Math.max(from_layer, body ? Math.min(left, full) : full);
+    const key = `${first} ${layer}`;
+    if (key === this.under_key) return;
+    this.under_key = key;
+    this.under?.dispose();
+    const buffer = new RoadBuffer();
+    for (let l = first; l < layer; l++) add_layer(buffer, this.moves, l, l >= full ? () => true : this.body.seen, l >= full ? exact : levels[1]!);
+    this.under = this.chunk_of(buffer);
+    this.under.show(buffer.count);
+  }
+
+  private recolour(): void {
+    const p = painted(this.look.colouring, this.summary, this.moves, this.audit);
+    this.colour = p.colour;
+    this.legend = p.legend;
+    this.painting++;
+    for (const c of [this.top, this.under, this.floor]) if (c) this.paint(c);
+    this.build_places();
+    this.stage.move();
+  }
+
+  private paint(chunk: RoadChunk): void {
+    if (chunk.painted === this.painting) return;
+    chunk.painted = this.painting;
+    const { colours, move } = chunk, { colour } = this;
+    for (let k = 0; k < move.length; k++) colours[k] = colour(move[k]!);
+    chunk.repaint();
+  }
+
+  /** Smears, holes or zippers of the colouring, by layer, a little thicker than the roads they lie on. */
+  private build_places(): void {
+    this.places?.dispose();
+    this.places = null;
+    const kind = places_of[this.look.colouring];
+    if (!this.audit || !kind) return;
+    const { places } = this.audit, wanted = kinds.indexOf(kind), layers = this.moves.layer_z.length;
+    const index: number[] = [];
+    for (let k = 0; k < places.count; k++) if (places.kind[k] === wanted && (kind !== "zipper" || places.visibility[k]! > 0.02) && (kind === "zipper" || places.mm3[k]! * places.visibility[k]! > 2e-4)) index.push(k);
+    index.sort((a, b) => places.layer[a]! - places.layer[b]! || a - b);
+    const n = index.length;
+    const buffer = new RoadBuffer(Math.max(1, n));
+    this.place_end = new Uint32Array(layers);
+    const colour = place_colour(this.look.colouring, this.summary, this.audit);
+    index.forEach((k, i) => {
+      const width = kind === "zipper" ? 45 : Math.min(140, 32 + 180 * Math.sqrt(places.mm3[k]! * places.visibility[k]!));
+      const height = 115 * (this.moves.layer_height[places.layer[k]!] ?? 0.2);
+      buffer.put(places.from, 3 * k, places.to, 3 * k, Math.round(width), Math.min(255, Math.round(height)), false, k);
+      this.place_end[places.layer[k]!] = i + 1;
+    });
+    for (let l = 1; l < layers; l++) this.place_end[l] = Math.max(this.place_end[l]!, this.place_end[l - 1]!);
+    this.place_index = buffer.move.subarray(0, n);
+    this.places = new RoadChunk(buffer.words.subarray(0, words_per_road * n), this.place_index, this.place_material);
+    index.forEach((k, i) => { this.places!.colours[i] = colour(k); });
+    this.root.add(this.places.mesh);
+    this.show_step();
+  }
+}

@@ -1,0 +1,116 @@
+// Draws pieces of road: six corners each, the visible side of a prism with the section of a diamond. Which side that is,
+// the vertex shader decides, so that no corner is spent on what looks away. The shader reads the roads from a texture by
+// the number of the vertex: one copy of 32 bytes a road, and no instances, of which drawing in software is slow.
+import * as THREE from "three";
+import { words_per_road } from "../model/roads.ts";
+
+const vertex = /* glsl */ `
+  uniform highp usampler2D roads; uniform lowp sampler2D colours;
+  uniform float cut_below_z; uniform vec2 middle; uniform float rampart; uniform float grow; uniform float detail;
+  out vec3 shade;
+  void main() {
+    int road = gl_VertexID / 6, corner = gl_VertexID - 6 * road;
+    ivec2 texel = ivec2(2 * (road & 511), road >> 9);
+    uvec4 first = texelFetch(roads, texel, 0), second = texelFetch(roads, texel + ivec2(1, 0), 0);
+    vec3 a = uintBitsToFloat(first.xyz), b = uintBitsToFloat(second.xyz);
+    vec2 size = vec2(float(first.w & 255u), float(first.w >> 8u));
+    bool auxiliary = second.w != 0u, at_start = corner < 3;
+    float across = float(corner - (at_start ? 1 : 4));  // -1 flank, 0 ridge, 1 flank
+    vec3 d = b - a;
+    float along = length(d);
+    d = along > 1e-5 ? d / along : vec3(1.0, 0.0, 0.0);
+    float w = size.x * 0.0053 + grow, h = size.y * 0.0062 + grow; // a little more than half, so that neighbours close up
+    vec3 side = normalize(vec3(-d.y, d.x, 0.0) + vec3(0.0, 1e-6, 0.0)), up = cross(d, side);
+    w *= mix(1.6, 1.0, detail); h *= mix(1.3, 1.0, detail);
+    vec3 centre = 0.5 * (a + b) - vec3(0.0, 0.0, size.y * 0.005);
+    vec3 eye = isOrthographic ? vec3(viewMatrix[0][2], viewMatrix[1][2], viewMatrix[2][2]) : normalize(cameraPosition - centre);
+    // The diamond's two faces towards the eye share one corner, the ridge; the other two are beside it.
+    float es = dot(eye, side), eu = dot(eye, up);
+    bool flat_on = abs(eu) * w > abs(es) * h;
+    vec3 ridge = flat_on ? up * sign(eu) : side * sign(es), flank = flat_on ? side * sign(eu) : -up * sign(es);
+    float rw = flat_on ? h : w, fw = flat_on ? w : h;
+    // Near, a road is round; from afar, where it is a pixel or two, that would only flicker: there it has the normal of
+    // both faces together, each by how much of it is seen.
+    vec3 round_normal = across == 0.0 ? ridge : normalize(flank * across + ridge * 0.25);
+    vec3 normal = normalize(mix(normalize(side * es * h + up * eu * w), round_normal, detail));
+    vec3 p = (at_start ? a - d * w * 0.7 : b + d * w * 0.7) - vec3(0.0, 0.0, size.y * 0.005);
+    p += across == 0.0 ? ridge * rw : flank * across * fw;
+    // Light from the eye's upper left, and from the sky.
+    vec3 right = vec3(viewMatrix[0][0], viewMatrix[1][0], viewMatrix[2][0]), top = vec3(viewMatrix[0][1], viewMatrix[1][1], viewMatrix[2][1]);
+    vec3 sun = normalize(eye + 0.55 * top - 0.45 * right);
+    float light = 0.42 + 0.46 * max(0.0, dot(normal, sun)) + 0.14 * normal.z;
+    shade = texelFetch(colours, ivec2(road & 511, road >> 9), 0).rgb * light;
+    gl_Position = projectionMatrix * viewMatrix * vec4(p, 1.0);
+    // The near half of the rampart opens like a doll's house; what lies below the lowest layer shown is gone.
+    bool near_half = dot(centre.xy - middle, eye.xy) > 0.0 && length(eye.xy) > 0.25;
+    if (b.z < cut_below_z || (auxiliary && (rampart < 0.5 || (rampart < 1.5 && near_half)))) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  }`;
+const fragment = /* glsl */ `
+  in vec3 shade; out vec4 colour_out;
+  void main() { colour_out = vec4(shade, 1.0); }`;
+
+export type RoadMaterial = THREE.ShaderMaterial & { uniforms: Record<"cut_below_z" | "middle" | "rampart" | "grow" | "detail", THREE.IUniform> };
+
+export function road_material(): RoadMaterial {
+  const uniforms = { cut_below_z: { value: -1e9 }, middle: { value: new THREE.Vector2() }, rampart: { value: 1 }, grow: { value: 0 }, detail: { value: 1 } };
+  return new THREE.ShaderMaterial({ vertexShader: vertex, fragmentShader: fragment, uniforms, glslVersion: THREE.GLSL3, side: THREE.DoubleSide }) as RoadMaterial;
+}
+
+const texture_roads = 512; // roads in a row of the textures
+export const chunk_roads = 1 << 17; // roads drawn at once; 2 million moves make no more than 16 draw calls
+export const triangles_per_road = 4;
+
+const faces = [0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4];
+let shared_index: THREE.BufferAttribute | null = null;
+function index(): THREE.BufferAttribute {
+  if (!shared_index) {
+    const all = new Uint32Array(faces.length * chunk_roads);
+    for (let r = 0, k = 0; r < chunk_roads; r++) for (let f = 0; f < 12; f++) all[k++] = 6 * r + faces[f]!;
+    shared_index = new THREE.BufferAttribute(all, 1);
+  }
+  return shared_index;
+}
+
+/** A fixed number of roads, at most chunk_roads; `show` draws the first so many. */
+export class RoadChunk {
+  readonly mesh: THREE.Mesh<THREE.BufferGeometry, RoadMaterial>;
+  readonly colours: Uint32Array; // r, g, b, a bytes of each road; call repaint() after writing
+  shown = 0;
+  painted = -1; // which colouring the colours are of
+  private readonly colour_texture: THREE.DataTexture;
+  private readonly road_texture: THREE.DataTexture;
+
+  constructor(words: Uint32Array, readonly move: Uint32Array, material: RoadMaterial) {
+    const rows = Math.max(1, Math.ceil(move.length / texture_roads));
+    const padded = new Uint32Array(words_per_road * texture_roads * rows);
+    padded.set(words);
+    this.road_texture = new THREE.DataTexture(padded, 2 * texture_roads, rows, THREE.RGBAIntegerFormat, THREE.UnsignedIntType);
+    this.road_texture.internalFormat = "RGBA32UI";
+    this.colours = new Uint32Array(texture_roads * rows);
+    this.colour_texture = new THREE.DataTexture(new Uint8Array(this.colours.buffer), texture_roads, rows, THREE.RGBAFormat, THREE.UnsignedByteType);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setIndex(index());
+    const own = material.clone() as RoadMaterial;
+    own.uniforms = { ...material.uniforms, roads: { value: this.road_texture }, colours: { value: this.colour_texture } } as RoadMaterial["uniforms"];
+    this.mesh = new THREE.Mesh(geometry, own);
+    this.mesh.frustumCulled = false;
+    this.mesh.matrixAutoUpdate = false;
+    this.mesh.visible = false;
+    this.road_texture.needsUpdate = this.colour_texture.needsUpdate = true;
+  }
+
+  show(count: number): void {
+    this.shown = count;
+    this.mesh.geometry.setDrawRange(0, faces.length * count);
+    this.mesh.visible = count > 0;
+  }
+
+  repaint(): void { this.colour_texture.needsUpdate = true; }
+
+  dispose(): void {
+    this.mesh.removeFromParent();
+    this.mesh.material.dispose();
+    this.road_texture.dispose();
+    this.colour_texture.dispose();
+  }
+}

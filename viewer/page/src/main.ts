@@ -1,0 +1,82 @@
+// The page of `cleancolor view`: prints of the server, files opened here, slicing.
+import "./style.css";
+import { api, Refusal, ServerSource, type PrintState } from "./data/api.ts";
+import { set_test_hooks } from "./test_hooks.ts";
+import { el, option } from "./ui/dom.ts";
+import { jobs } from "./ui/jobs.ts";
+import { opener } from "./ui/open.ts";
+import { slicing } from "./ui/slicing.ts";
+import { viewer_layout } from "./ui/viewer_layout.ts";
+
+let prints: PrintState[] = [];
+let shown: number[] = [];
+
+const open = opener((gcode, meshes, unknown) => void take(gcode, meshes, unknown));
+const slice_panel = slicing(open.pick, (id) => job_list.watch(id));
+const job_list = jobs((job) => { if (job.print) void show_print(job.print); }, (print) => void show_print(print));
+const { viewer, main, help, side, say } = viewer_layout([{ name: "slice", title: "Slice", content: el("div", {}, slice_panel.element, job_list.element) }]);
+set_test_hooks(viewer);
+
+const first = el("select", { id: "print", "aria-label": "Print", change: () => void show([Number(first.value), ...shown.slice(1)]) });
+const second = el("select", { id: "compare", "aria-label": "Compare with", change: () => void show(second.value ? [shown[0]!, Number(second.value)] : [shown[0]!]) });
+const download = el("a", { class: "button", id: "download", download: true, title: "Download this G-code", hidden: true }, "Download");
+const welcome = el("div", { class: "welcome", hidden: true }, el("h2", {}, "See how clean it comes out"),
+  el("p", {}, "Drop the G-code of any slicer here to see where idle nozzles leave ooze, or meshes to slice them clean."), el("button", { type: "button", class: "primary", click: open.pick }, "Open files…"));
+main.querySelector(".stage")!.append(welcome);
+document.getElementById("page")!.append(
+  el("header", {}, el("h1", {}, el("span", { class: "logo", "aria-hidden": "true" }, el("i"), el("i"), el("i")), "cleancolor"), first, second,
+    el("span", { class: "gap" }), download, el("button", { type: "button", id: "open", click: open.pick }, "Open…"), el("button", { type: "button", class: "quiet", id: "show-help", "aria-label": "Keys and help", title: "Keys (?)", click: () => help.showModal() }, "?")),
+  main, help, open.input, open.curtain);
+
+function fill_prints(): void {
+  const here = prints.filter((p) => p.state !== "failed");
+  first.replaceChildren(...here.map((p) => option(String(p.id), p.name, p.id === shown[0])));
+  second.replaceChildren(option("", "compare with…", shown.length < 2), ...here.filter((p) => p.id !== shown[0]).map((p) => option(String(p.id), p.name, p.id === shown[1])));
+  first.hidden = here.length === 0;
+  second.hidden = here.length < 2;
+  download.hidden = shown.length === 0;
+  if (shown.length) download.href = api.gcode_address(shown[0]!);
+  welcome.hidden = shown.length > 0;
+}
+
+function fail(e: unknown): void { say(e instanceof Refusal || e instanceof Error ? e.message : String(e)); }
+
+async function show(ids: number[]): Promise<void> {
+  shown = ids.filter((id, i) => prints.some((p) => p.id === id) && ids.indexOf(id) === i);
+  fill_prints();
+  try {
+    await viewer.open(shown.map((id) => ({ name: prints.find((p) => p.id === id)!.name, source: new ServerSource(id) })), say);
+  } catch (e) { fail(e); }
+}
+
+async function show_print(id: number): Promise<void> {
+  try { prints = await api.prints(); } catch (e) { fail(e); return; }
+  await show([id]);
+}
+
+async function take(gcode: File[], meshes: File[], unknown: File[]): Promise<void> {
+  try {
+    for (const file of meshes) {
+      say(`uploading ${file.name}`, 0);
+      const { id } = await api.add_mesh(file);
+      slice_panel.add_mesh({ id, name: file.name, bytes: file.size });
+      side.show("slice");
+    }
+    const ids: number[] = [];
+    for (const file of gcode) { say(`uploading ${file.name}`, 0); ids.push((await api.add_print(file)).id); }
+    say("");
+    if (ids.length) { prints = await api.prints(); await show(ids.slice(0, 2)); }
+    if (unknown.length) say(`${unknown[0]!.name}: neither G-code nor a mesh (STL, OBJ, PLY, AMF, 3MF)`);
+  } catch (e) { fail(e); }
+}
+
+try {
+  prints = await api.prints();
+  job_list.watch();
+  const good = prints.filter((p) => p.state !== "failed");
+  fill_prints();
+  const bad = prints.find((p) => p.state === "failed");
+  if (good.length) await show(good.slice(0, 2).map((p) => p.id));
+  else if (bad) fail(new Error(`${bad.name} cannot be read`));
+  else if ((await api.meshes()).length) side.show("slice");
+} catch (e) { fail(e); }

@@ -1,0 +1,51 @@
+// What the slicing panel knows without a page: which options matter, what holds where nothing is changed, the request.
+import type { JobRequest, Option, Profile } from "../data/api.ts";
+
+/** Shown at once; all others are under "All options". */
+export const options_that_matter = ["layer_height", "perimeters", "fill_density", "fill_pattern", "rampart", "planner", "effort", "seam_position", "brim_width", "skirts"];
+
+export interface Choice {
+  printer: string; print: string; materials: string[]; protect: string;
+  meshes: { id: number; extruder: number }[];
+  changed: Map<string, string>; // options the person has set
+}
+
+const profile = (all: Profile[], group: Profile["group"], name: string | undefined) => all.find((p) => p.group === group && p.name === name);
+
+/** The text that holds where nothing is set: of the print settings, else the material, else the printer, else the default. */
+export function standing_value(option: Option, profiles: Profile[], choice: Choice): string {
+  for (const p of [profile(profiles, "print", choice.print), profile(profiles, "material", choice.materials[0]), profile(profiles, "printer", choice.printer)]) {
+    const text = p?.settings[option.name];
+    if (text !== undefined) return text;
+  }
+  return option.default;
+}
+
+export function extruders_of(profiles: Profile[], printer: string): number {
+  return Math.max(1, profile(profiles, "printer", printer)?.extruders ?? 1);
+}
+
+/** The printer's own materials and print settings: what changes when another printer is chosen. */
+export function with_printer(choice: Choice, profiles: Profile[], printer: string): Choice {
+  const p = profile(profiles, "printer", printer), n = extruders_of(profiles, printer);
+  const material = p?.default_material || profiles.find((q) => q.group === "material")?.name || "";
+  return {
+    ...choice, printer, print: p?.default_print || choice.print, materials: Array.from({ length: n }, () => material),
+    meshes: choice.meshes.map((m) => ({ ...m, extruder: Math.min(m.extruder, n - 1) })),
+  };
+}
+
+export function job_request(choice: Choice): JobRequest {
+  return { meshes: choice.meshes, printer: choice.printer, materials: choice.materials, print: choice.print, protect: choice.protect, settings: Object.fromEntries(choice.changed) };
+}
+
+/** Words of a search, each of which must occur in name, help or section. */
+export function found(option: Option, search: string): boolean {
+  const text = `${option.name} ${option.name.replace(/_/g, " ")} ${option.help} ${option.section}`.toLowerCase();
+  return search.toLowerCase().split(/\s+/).every((word) => text.includes(word));
+}
+
+export const title_of = (name: string) => { const t = name.replace(/_/g, " "); return t[0]!.toUpperCase() + t.slice(1); };
+
+const mesh_names = /\.(stl|obj|3mf|amf|ply)$/i, gcode_names = /\.(gcode|gco|g|nc|ngc|txt)$/i;
+export const kind_of_file = (name: string): "mesh" | "gcode" | null => (mesh_names.test(name) ? "mesh" : gcode_names.test(name) ? "gcode" : null);

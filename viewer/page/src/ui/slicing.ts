@@ -1,0 +1,120 @@
+// The slicing panel: parts, printer, materials, options, and the button. What the server refuses is shown at its field.
+import { api, Refusal, type Mesh, type Option, type Profile } from "../data/api.ts";
+import { extruders_of, found, job_request, options_that_matter, standing_value, with_printer, type Choice } from "../model/slicing.ts";
+import { el, field, option as choice_of } from "./dom.ts";
+import { option_field, type OptionField } from "./option_field.ts";
+import { amount } from "./words.ts";
+
+export interface Slicing { element: HTMLElement; add_mesh: (mesh: Mesh) => void }
+
+const protections: [string, string][] = [["full", "full: azimuth, rampart, planner"], ["rampart", "azimuth and rampart"], ["none", "none"]];
+
+export function slicing(pick: () => void, started: (id: number) => void): Slicing {
+  let options: Option[] = [], profiles: Profile[] = [], meshes: Mesh[] = [];
+  let choice: Choice = { printer: "", print: "", materials: [], protect: "full", meshes: [], changed: new Map() };
+  const fields = new Map<string, OptionField[]>();
+
+  const parts = el("ul", { class: "parts" });
+  const printer = el("select", { id: "printer", change: () => { choice = with_printer(choice, profiles, printer.value); refresh(); } });
+  const print = el("select", { id: "print-settings", change: () => { choice.print = print.value; refresh(); } });
+  const protect = el("select", { id: "protect", change: () => { choice.protect = protect.value; } }, ...protections.map(([v, t]) => choice_of(v, t)));
+  const materials = el("div", { class: "materials" });
+  const few = el("div", { class: "options" });
+  const search = el("input", { type: "search", id: "option-search", placeholder: "Search", "aria-label": "Search all options", input: () => filter() });
+  const all = el("div", { class: "all-options" });
+  const error = el("p", { class: "error", role: "alert", hidden: true, id: "slice-error" });
+  const go = el("button", { type: "submit", class: "primary", id: "slice" }, "Slice");
+  const form = el("form", { class: "pane slicing", submit: (e: Event) => { e.preventDefault(); void slice(); } },
+    el("h3", {}, "Parts"), parts, el("button", { type: "button", class: "quiet", id: "add-parts", click: pick }, "Add meshes…"),
+    el("div", { class: "grid2" }, field("Printer", printer), field("Print settings", print)), materials, field("Protection of colours", protect),
+    el("h3", {}, "Options"), few, el("details", { id: "all-options" }, el("summary", {}, "All options"), search, all), error, go);
+
+  function complain(e: unknown): void {
+    const refusal = e instanceof Refusal ? e : new Refusal(String(e), 0);
+    const at = refusal.field ? fields.get(refusal.field) : undefined;
+    if (at) {
+      if (!options_that_matter.includes(refusal.field!)) document.getElementById("all-options")!.setAttribute("open", "");
+      at[0]!.complain(refusal.message);
+    }
+    const control = { printer, print, protect }[refusal.field ?? ""];
+    control?.setAttribute("aria-invalid", "true");
+    error.textContent = at ? "" : refusal.message;
+    error.hidden = at !== undefined;
+  }
+
+  async function slice(): Promise<void> {
+    error.hidden = true;
+    for (const f of fields.values()) f.forEach((one) => one.complain(""));
+    for (const c of [printer, print, protect]) c.removeAttribute("aria-invalid");
+    if (choice.meshes.length === 0) { complain(new Refusal("Add the meshes to print first.", 0)); return; }
+    go.disabled = true;
+    try { started((await api.slice(job_request(choice))).id); } catch (e) { complain(e); } finally { go.disabled = false; }
+  }
+
+  function add_option(o: Option, to: HTMLElement, prefix: string): HTMLElement {
+    const one = option_field(o, prefix, (text) => {
+      if (text === undefined) choice.changed.delete(o.name); else choice.changed.set(o.name, text);
+      refresh();
+    });
+    fields.set(o.name, [...(fields.get(o.name) ?? []), one]);
+    to.append(one.element);
+    return one.element;
+  }
+
+  function filter(): void {
+    for (const section of all.querySelectorAll<HTMLElement>("section")) {
+      let any = false;
+      for (const e of section.querySelectorAll<HTMLElement>(".option")) {
+        e.hidden = !found(options.find((o) => o.name === e.dataset["name"])!, search.value);
+        any ||= !e.hidden;
+      }
+      section.hidden = !any;
+    }
+  }
+
+  function refresh(): void {
+    const n = extruders_of(profiles, choice.printer);
+    printer.value = choice.printer;
+    print.value = choice.print;
+    materials.replaceChildren(...choice.materials.map((m, i) => {
+      const select = el("select", { id: `material-${i + 1}`, change: () => { choice.materials[i] = select.value; refresh(); } }, ...profiles.filter((p) => p.group === "material").map((p) => choice_of(p.name, p.name, p.name === m)));
+      return field(`Material ${i + 1}`, select);
+    }));
+    parts.replaceChildren(...choice.meshes.map((m) => {
+      const mesh = meshes.find((x) => x.id === m.id);
+      const extruder = el("select", { "aria-label": `Extruder of ${mesh?.name}`, change: () => { m.extruder = Number(extruder.value); } }, ...Array.from({ length: n }, (_, i) => choice_of(String(i), `extruder ${i + 1}`, i === m.extruder)));
+      const remove = el("button", { type: "button", class: "quiet small", "aria-label": `Remove ${mesh?.name}`, click: () => { choice.meshes = choice.meshes.filter((x) => x !== m); void api.forget_mesh(m.id).catch(() => undefined); refresh(); } }, "×");
+      return el("li", {}, el("span", { class: "name", title: mesh ? `${amount(mesh.bytes / 1000)} kB` : undefined }, mesh?.name ?? `mesh ${m.id}`), extruder, remove);
+    }));
+    for (const o of options) fields.get(o.name)?.forEach((f) => f.show(choice.changed.get(o.name), standing_value(o, profiles, choice)));
+  }
+
+  async function load(): Promise<void> {
+    const [got_options, got_profiles, got_meshes] = await Promise.all([api.options(), api.profiles(), api.meshes()]);
+    options = got_options;
+    profiles = got_profiles;
+    const printers = profiles.filter((p) => p.group === "printer" && !p.audit_only);
+    printer.replaceChildren(...printers.map((p) => choice_of(p.name, p.name)));
+    print.replaceChildren(...profiles.filter((p) => p.group === "print").map((p) => choice_of(p.name, p.name)));
+    const start = printers.find((p) => p.chosen) ?? printers.find((p) => p.name === "replicator-dual") ?? printers.find((p) => (p.extruders ?? 1) > 1) ?? printers[0];
+    if (start) choice = with_printer(choice, profiles, start.name);
+    for (const name of options_that_matter) { const o = options.find((x) => x.name === name); if (o) add_option(o, few, "option"); }
+    const sections = new Map<string, HTMLElement>();
+    for (const o of options) {
+      const key = `${o.group}: ${o.section}`;
+      if (!sections.has(key)) { const s = el("section", {}, el("h4", {}, `${o.section} (${o.group})`)); sections.set(key, s); all.append(s); }
+      add_option(o, sections.get(key)!, "all").dataset["name"] = o.name;
+    }
+    got_meshes.forEach(take);
+    refresh();
+  }
+
+  function take(mesh: Mesh): void {
+    if (meshes.some((m) => m.id === mesh.id)) return;
+    meshes.push(mesh);
+    choice.meshes.push({ id: mesh.id, extruder: Math.min(choice.meshes.length, extruders_of(profiles, choice.printer) - 1) });
+  }
+
+  void load().catch(complain);
+  return { element: form, add_mesh(mesh) { take(mesh); refresh(); } };
+}
