@@ -250,7 +250,7 @@ void Server::Http::log(const httplib::Request& request, const httplib::Response&
                       request.remote_addr, response.status));
 }
 
-Server::Server(Api& api, ServerOptions options)
+Server::Server(Api& api, const ServerOptions& options)
     : access_{.token = random_token(), .address = options.address},
       http_(std::make_unique<Http>(api, access_, options.refused)) {
   http_->prepare();

@@ -28,7 +28,7 @@ struct ServerOptions {
 class Server {
  public:
   /// Listens when it is made.  Throws SystemError where it cannot.  The API must outlive it.
-  Server(Api& api, ServerOptions options);
+  Server(Api& api, const ServerOptions& options);
   /// Ends what runs: at most a few seconds.
   ~Server();
   Server(const Server&) = delete;

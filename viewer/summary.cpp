@@ -27,32 +27,37 @@ std::string_view told(const GcodePrint& print, std::string_view key) {
   return {};
 }
 
+/// What the action returns; nothing where the text is another slicer's, in words that we do not know.
+template <class Action>
+auto understood(const Action& action) -> std::optional<decltype(action())> {
+  try {
+    return action();
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 /// The outline of the bed: of the profile, else as the file tells it; empty where nothing does.
 std::vector<Vec2> bed(const ReadPrint& read) {
   if (read.printer) return read.printer->bed_shape_mm;
   for (const char* key : {"bed_shape", "printable_area"}) {
     const std::string_view text = told(*read.print, key);
-    if (text.empty()) continue;
-    try {
-      return std::get<std::vector<Vec2>>(parse_option(*find_option("bed_shape"), text));
-    } catch (const Error&) {  // of another slicer, in its own words: the page draws no bed
-    }
+    const auto shape = understood([&] { return parse_option(*find_option("bed_shape"), text); });
+    if (!text.empty() && shape) return std::get<std::vector<Vec2>>(*shape);
   }
   return {};
 }
 
-/// By nozzle; empty where the file does not say.
+/// By nozzle; empty where nothing tells.
 std::vector<std::string> filament_types(const ReadPrint& read) {
+  const std::size_t count = read.machine->nozzles.size();
   const std::string_view text = told(*read.print, "filament_type");
   std::vector<std::string> types;
-  try {
-    if (!text.empty()) types = split_list(*find_option("filament_type"), text);
-  } catch (const Error&) {  // not a list as we know it
-  }
-  types.resize(read.machine->nozzles.size());
-  if (text.empty() && read.printer)
-    for (std::size_t n = 0; n < std::min(types.size(), read.printer->extruders.size()); ++n)
-      types[n] = read.printer->extruders[n].filament_type;
+  if (!text.empty())
+    types = understood([&] { return split_list(*find_option("filament_type"), text); }).value_or(types);
+  else if (read.printer)
+    for (const Extruder& e : read.printer->extruders) types.push_back(e.filament_type);
+  types.resize(count);
   return types;
 }
 
