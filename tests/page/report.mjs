@@ -24,6 +24,16 @@ export async function report(chrome, address) {
     await page.locator("#cleancolor-report").scrollIntoViewIfNeeded();
     await picture(page, "report");
     await page.screenshot({ path: path.join(out, "report-whole.png"), fullPage: true });
+
+    const zoom = () => page.evaluate(() => window.cleancolor.viewer.stage.camera.position.length());
+    const turn_wheel = async () => { await page.locator(".picture").hover(); await page.mouse.wheel(0, 100); await page.waitForTimeout(300); };
+    const before = await zoom(), scrolled = await page.evaluate(() => window.scrollY);
+    await turn_wheel();
+    assert.equal(await zoom(), before);
+    assert.ok(await page.evaluate(() => window.scrollY) > scrolled, "the wheel scrolls the report");
+    await page.locator(".picture").click();
+    await turn_wheel();
+    assert.notEqual(await zoom(), before, "after a click it zooms");
     assert.deepEqual(page.troubles, []);
     await page.context().close();
   });
