@@ -176,7 +176,8 @@ void require_outputs(const AuditCommand& command, bool layer_is_said) {
   require_ending(command.png, "--png", ".png", "an SVG is written by --svg");
   require_ending(command.html, "-o", ".html", "JSON is written by --json, pictures by --svg and --png");
   if (layer_is_said && !draws) throw Error("--layer: say where to draw it: --svg FILE.svg or --png FILE.png");
-  if (!command.scene && command.html.empty()) throw Error("--no-scene: it is about the report; write one by -o FILE.html");
+  if (!command.scene && command.html.empty())
+    throw Error("--no-scene: it is about the report; write one by -o FILE.html");
   if (draws && command.files.size() > 1) throw Error("--svg and --png draw a layer of one file; name only one");
   if (command.compare && command.files.size() < 2) throw Error("--compare: name at least two files");
 }

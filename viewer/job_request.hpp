@@ -18,7 +18,7 @@ struct JobMesh {
 };
 
 struct JobRequest {
-  std::vector<JobMesh> meshes;  // at least one
+  std::vector<JobMesh> meshes;        // at least one
   std::optional<double> azimuth_deg;  // as in SliceRequest
   Config config;
 };

@@ -40,8 +40,8 @@ std::string json_script(std::size_t print, const nlohmann::ordered_json& json) {
 
 std::string bytes_script(std::size_t print, std::string_view what, const std::string& bytes) {
   return fmt::format(
-      "<script type=\"application/octet-stream\" id=\"cleancolor-{}-{}\" data-encoding=\"deflate\">{}</script>\n", print,
-      what, base64(deflated(bytes)));
+      "<script type=\"application/octet-stream\" id=\"cleancolor-{}-{}\" data-encoding=\"deflate\">{}</script>\n",
+      print, what, base64(deflated(bytes)));
 }
 
 std::string print_scripts(std::size_t number, const AuditedFile& file, const Config* printer, int threads) {
@@ -75,17 +75,18 @@ std::string section(std::string_view scenario, std::string_view html) {
 
 ReportScene report_scene(std::span<const AuditedFile> files, const Config* printer, int threads, std::size_t most_moves,
                          std::span<const PageFile> page) {
-  const std::string_view script = page_bytes(page, "/report.js");
-  if (files.empty() || script.empty()) return {};
+  const std::string_view script = page_bytes(page, "/report.js"), sha256 = page_bytes(page, "/report.sha256");
+  if (files.empty() || script.empty() || sha256.empty()) return {};
   const std::string& scenario = files.front().result->scenarios.front().name;
   std::size_t moves = 0;
   for (const AuditedFile& file : files) moves += file.print->moves.size();
   ReportScene scene;
   if (moves > most_moves) {
-    scene.place = section(scenario, fmt::format("<div class=\"sheet\"><p class=\"pale\">Left out, for there are {} moves "
-                                                "to draw, more than {}: <code>cleancolor view</code> shows "
-                                                "them.</p></div>\n",
-                                                moves, most_moves));
+    scene.place =
+        section(scenario, fmt::format("<div class=\"sheet\"><p class=\"pale\">Left out, for there are {} moves "
+                                      "to draw, more than {}: <code>cleancolor view</code> shows "
+                                      "them.</p></div>\n",
+                                      moves, most_moves));
     return scene;
   }
   std::string names;
@@ -93,7 +94,7 @@ ReportScene report_scene(std::span<const AuditedFile> files, const Config* print
   scene.place = section(scenario, fmt::format("<div id=\"cleancolor-report\" data-names=\"{}\"></div>\n", names));
   for (std::size_t i = 0; i < files.size(); ++i) scene.scripts += print_scripts(i, files[i], printer, threads);
   scene.scripts += fmt::format("<script>{}</script>\n", script);
-  scene.script_sha256 = page_bytes(page, "/report.sha256");
+  scene.script_sha256 = sha256;
   scene.style = page_bytes(page, "/report.css");
   return scene;
 }

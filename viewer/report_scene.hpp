@@ -5,8 +5,8 @@
 //   audited files  ->  the page's script and style, and for each print its summary, moves and audit
 //
 // For print N the scripts hold, as viewer/page/src/data/embedded.ts reads them, "cleancolor-N-summary" (JSON),
-// "cleancolor-N-moves" and "cleancolor-N-audit": the bytes that the server answers (docs/viewer-api.md), in zlib's format
-// and base64.
+// "cleancolor-N-moves" and "cleancolor-N-audit": the bytes that the server answers (docs/viewer-api.md), in zlib's
+// format and base64.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace cleancolor {
 
-/// Of the scenario that stands first (worst). Empty where the page was built without the report's script; where the files
+/// Of the scenario that stands first (worst). Empty where the program was built without the page; where the files
 /// have more moves than most_moves together, a sentence alone says so.
 ///
 /// printer: nullptr where it is not known.  Cost: about 3 us of CPU and 28 bytes of the report a move.

@@ -208,7 +208,8 @@ TEST(AuditProgram, WritesTheSceneIntoTheReportWhereItHasThePageAndNobodyForbidsI
   folder.file("a.gcode", two_walls());
   const bool built = std::ranges::count(page_files(), "/report.js", &PageFile::path) == 1;
   ASSERT_EQ(run(folder, std::string("a.gcode a.gcode --quiet -o with.html") + offsets).exit_code, exit_done);
-  ASSERT_EQ(run(folder, std::string("a.gcode a.gcode --quiet -o without.html --no-scene") + offsets).exit_code, exit_done);
+  ASSERT_EQ(run(folder, std::string("a.gcode a.gcode --quiet -o without.html --no-scene") + offsets).exit_code,
+            exit_done);
   const std::string with = file_text(folder.path("with.html")), without = file_text(folder.path("without.html"));
   EXPECT_EQ(with.find("id=\"cleancolor-1-audit\"") != with.npos, built);
   EXPECT_EQ(with.find("data-names=\"a.gcode&#10;a.gcode\"") != with.npos, built);

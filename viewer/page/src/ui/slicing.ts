@@ -102,7 +102,7 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
     for (const name of options_that_matter) { const o = options.find((x) => x.name === name); if (o) add_option(o, few, "option"); }
     const azimuth = option_field(azimuth_option, "option", (text) => { choice.azimuth = text ?? ""; refresh(); });
     fields.set(azimuth_option.name, [azimuth]);
-    few.append(azimuth.element);
+    few.prepend(azimuth.element);
     const sections = new Map<string, HTMLElement>();
     for (const o of options) {
       const key = `${o.group}: ${o.section}`;
