@@ -14,6 +14,7 @@
 #include "cli/machine_arguments.hpp"
 #include "cli/separate_files.hpp"
 #include "reader/read.hpp"
+#include "viewer/report_scene.hpp"
 
 namespace cleancolor {
 namespace {
@@ -103,7 +104,9 @@ int run(const AuditCommand& command, std::ostream& out, std::ostream& err, bool 
   draw_layer(command, *all.front());
   if (!command.html.empty()) {
     progress.advance("pictures", 0);
-    write_file(command.html, audit_html(files, options));
+    ReportScene scene;
+    if (command.scene) scene = report_scene(files, request.printer ? &*request.printer : nullptr, command.threads);
+    write_file(command.html, audit_html(files, options, scene));
   }
   console.clear();
   const std::string json =

@@ -69,6 +69,8 @@ void add_output(CLI::App& app, AuditTexts& texts) {
   AuditCommand& command = texts.command;
   app.add_flag("--compare", command.compare, "the files side by side instead of one after the other")->group(group);
   app.add_option("-o,--output", command.html, "report with pictures, one page")->type_name("FILE.html")->group(group);
+  app.add_flag("--no-scene", texts.no_scene, "report without the print to turn and look into: a smaller file")
+      ->group(group);
   app.add_option("--json", texts.json, "all figures for programs; - prints them instead of the table")
       ->type_name("FILE.json|-")
       ->group(group);
@@ -174,6 +176,8 @@ void require_outputs(const AuditCommand& command, bool layer_is_said) {
   require_ending(command.png, "--png", ".png", "an SVG is written by --svg");
   require_ending(command.html, "-o", ".html", "JSON is written by --json, pictures by --svg and --png");
   if (layer_is_said && !draws) throw Error("--layer: say where to draw it: --svg FILE.svg or --png FILE.png");
+  if (!command.scene && command.html.empty())
+    throw Error("--no-scene: it is about the report; write one by -o FILE.html");
   if (draws && command.files.size() > 1) throw Error("--svg and --png draw a layer of one file; name only one");
   if (command.compare && command.files.size() < 2) throw Error("--compare: name at least two files");
 }
@@ -201,6 +205,7 @@ AuditCommand audit_command(AuditTexts texts) {
   if (!texts.layer.empty()) command.layer = layer_index(texts.layer);
   if (!texts.places.empty() && (!parse_whole(texts.places, command.places) || command.places > most_places))
     throw Error(fmt::format("--places: '{}' is not a number up to {}", texts.places, most_places));
+  command.scene = !texts.no_scene;
   command.json_on_standard_output = texts.json == "-";
   if (!command.json_on_standard_output) command.json = texts.json;
   require_ending(command.json, "--json", ".json", "- prints it");

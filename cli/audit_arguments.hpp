@@ -23,6 +23,7 @@ struct AuditTexts {
   std::string layer;
   std::string places;
   bool sensitivity = false;
+  bool no_scene = false;
 };
 
 /// What `cleancolor audit --help` says first.

@@ -69,6 +69,7 @@ struct AuditCommand : MachineOptions {
   bool compare = false;
   std::optional<std::uint32_t> layer;          // 0-based, to be drawn; empty: the worst one
   std::filesystem::path html, json, svg, png;  // empty: none
+  bool scene = true;                           // in the HTML page
   bool json_on_standard_output = false;
   std::size_t places = 10;
   int threads = 0;

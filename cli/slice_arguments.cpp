@@ -199,16 +199,6 @@ std::vector<ModelFile> files_in_order(const CLI::App& app, const SliceTexts& tex
   return files;
 }
 
-/// Empty: auto.
-std::optional<double> azimuth_of(const std::string& text) {
-  if (text == "auto") return std::nullopt;
-  if (text == "off") return 0;
-  double degrees = 0;
-  if (!parse_whole(std::string_view(text), degrees) || !std::isfinite(degrees))
-    throw Error(fmt::format("--azimuth: '{}' is neither auto nor off nor an angle in degrees", text));
-  return degrees;
-}
-
 void require_word(const char* option, const std::string& text, std::initializer_list<std::string_view> words) {
   if (text.empty() || std::ranges::find(words, text) != words.end()) return;
   throw Error(fmt::format("{}: '{}' is none of {}", option, text, fmt::join(words, ", ")));
@@ -266,7 +256,7 @@ SliceCommand slice_command(const CLI::App& app, SliceTexts texts) {
     throw Error(fmt::format("{0}: name at least one mesh file; see cleancolor {0} --help", app.get_name()));
   require_word("--protect", texts.protect, {"none", "rampart", "full"});
   const ProtectionLevel protects = protection_level(texts.protect).value_or(ProtectionLevel{});
-  command.azimuth_deg = azimuth_of(texts.azimuth.value_or(protects.turns ? "auto" : "off"));
+  command.azimuth_deg = azimuth_deg(texts.azimuth.value_or(protects.turns ? "auto" : "off"), "--azimuth");
   // What is set by name counts more.
   require_word("--planner", texts.planner, {"clean", "paper", "plain"});
   require_word("--effort", texts.effort, {"fast", "normal", "best"});

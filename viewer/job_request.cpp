@@ -145,19 +145,31 @@ Config config_at(const Json& json, const std::string& own_printer, const Protect
   return config;
 }
 
+/// Empty: the best.
+std::optional<double> azimuth_at(const Json& json, const ProtectionLevel& protection) {
+  const auto found = json.find("azimuth");
+  if (found == json.end() || found->is_null()) return azimuth_deg(protection.turns ? "auto" : "off");
+  if (!found->is_string() && !found->is_number()) throw wrong("azimuth: auto, off or degrees are expected", "azimuth");
+  try {
+    return azimuth_deg(setting_text("azimuth", *found));
+  } catch (const Error& e) {
+    throw wrong(e.what(), "azimuth");
+  }
+}
+
 }  // namespace
 
 JobRequest job_request(std::string_view body, const std::string& own_printer) {
   const Json json = Json::parse(body, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object()) throw wrong("the body is not a JSON object");
-  require_fields(json, {"meshes", "printer", "materials", "print", "settings", "protect"}, "");
+  require_fields(json, {"meshes", "printer", "materials", "print", "settings", "protect", "azimuth"}, "");
   const std::string protect = text_at(json, "protect");
   const auto level = protect.empty() ? ProtectionLevel{} : protection_level(protect);
   if (!level) throw wrong(fmt::format("protect: '{}' is none of none, rampart, full", protect), "protect");
   JobRequest request;
   request.meshes = meshes_at(json);
   request.config = config_at(json, own_printer, *level);
-  if (!level->turns) request.azimuth_deg = 0;
+  request.azimuth_deg = azimuth_at(json, *level);
   const std::size_t extruders = request.config.extruders.size();
   for (const JobMesh& mesh : request.meshes)
     if (mesh.extruder && std::size_t(*mesh.extruder) >= extruders)

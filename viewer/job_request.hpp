@@ -18,8 +18,8 @@ struct JobMesh {
 };
 
 struct JobRequest {
-  std::vector<JobMesh> meshes;  // at least one
-  std::optional<double> azimuth_deg;
+  std::vector<JobMesh> meshes;        // at least one
+  std::optional<double> azimuth_deg;  // as in SliceRequest
   Config config;
 };
 

@@ -26,7 +26,14 @@ struct HtmlTable {
 };
 std::string html_table(const HtmlTable& table);
 
-/// A whole page. Nothing in it is fetched from elsewhere, and no script may run in it.
-std::string html_page(std::string_view title, std::string_view body);
+/// The one script that may run in a page. It stands in the page's body.
+struct HtmlScript {
+  std::string_view sha256;  // of its text, in base64; empty: none may run
+  std::string_view style;   // CSS of what it draws
+};
+
+/// A whole page; class "sheet" gives its style to what is in it. Nothing in it is fetched from elsewhere, and no script
+/// may run in it but the one that is named.
+std::string html_page(std::string_view title, std::string_view body, const HtmlScript& script = {});
 
 }  // namespace cleancolor

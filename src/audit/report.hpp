@@ -43,8 +43,17 @@ std::string audit_json(std::span<const AuditedFile> files, const ReportOptions& 
 /// The object of one file in it.
 std::string audit_file_json(const AuditedFile& file, const ReportOptions& options = {});
 
-/// One self-contained page without scripts: figures, worst layers drawn, smear over height, four sides; several files
-/// side by side.
-std::string audit_html(std::span<const AuditedFile> files, const ReportOptions& options = {});
+/// A print to turn and look into as part of the page: HTML that is ready, made by whoever can draw so.
+struct ReportScene {
+  std::string place;          // what stands above the pictures
+  std::string scripts;        // at the end of the body: data, and the script that draws it
+  std::string script_sha256;  // of that script, in base64; no other may run
+  std::string style;          // CSS of what it draws
+};
+
+/// One self-contained page: figures, worst layers drawn, smear over height, four sides; several files side by side. All
+/// of it can be read without scripts; only the scene has one.
+std::string audit_html(std::span<const AuditedFile> files, const ReportOptions& options = {},
+                       const ReportScene& scene = {});
 
 }  // namespace cleancolor

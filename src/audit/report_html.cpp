@@ -215,13 +215,16 @@ std::string unknown_commands(const GcodePrint& print) {
   return "<h2>Unknown commands</h2>\n<p class=\"pale\">They were passed over.</p>\n" + html_table(table);
 }
 
-std::string file_part(const AuditedFile& file, const ReportOptions& options, bool alone) {
-  const PictureWidths widths = alone ? of_one : of_several;
+std::string summary_part(const AuditedFile& file, const ReportOptions& options) {
   return fmt::format("<h1>{}</h1>\n<p class=\"pale\">{}; {} layers, {:.2f} mm high</p>\n", html_text(file.name),
                      html_text(producer_text(*file.print)), file.print->layers.size(),
                      file.print->layers.empty() ? 0 : file.print->layers.back().z_mm) +
-         verdicts(file, options) + cards(file, options) + warnings(file) +
-         side_pictures(file, options, widths.side_px) + height_plot(file, options, widths.plot_px) +
+         verdicts(file, options) + cards(file, options) + warnings(file);
+}
+
+std::string pictures_part(const AuditedFile& file, const ReportOptions& options, bool alone) {
+  const PictureWidths widths = alone ? of_one : of_several;
+  return side_pictures(file, options, widths.side_px) + height_plot(file, options, widths.plot_px) +
          layer_pictures(file, options) + places(file, options) + figures(file, alone) + filament(*file.result) +
          assumptions(file) + unknown_commands(*file.print);
 }
@@ -259,20 +262,28 @@ std::string common_height_plot(std::span<const AuditedFile> files, const ReportO
 
 }  // namespace
 
-std::string audit_html(std::span<const AuditedFile> files, const ReportOptions& options) {
+std::string audit_html(std::span<const AuditedFile> files, const ReportOptions& options, const ReportScene& scene) {
+  const HtmlScript script{.sha256 = scene.script_sha256, .style = scene.style};
+  const auto sheet = [](const std::string& html) { return "<div class=\"sheet\">\n" + html + "</div>\n"; };
   if (files.size() == 1)
     return html_page("Ooze audit of " + files[0].name,
-                     "<body>\n" + file_part(files[0], options, /*alone=*/true) + "</body>\n");
+                     "<body>\n" + sheet(summary_part(files[0], options)) + scene.place +
+                         sheet(pictures_part(files[0], options, /*alone=*/true)) + scene.scripts + "</body>\n",
+                     script);
   ReportOptions each = options;
   each.worst_layers = std::min(options.worst_layers, layers_of_several);
-  std::string body = "<body class=\"several\">\n<h1>Ooze audit</h1>\n";
+  std::string common = "<h1>Ooze audit</h1>\n";
   if (!files.empty())
-    body += fmt::format("<p class=\"{}\">{}</p>\n", part_difference(files) > same_part_share ? "notice" : "pale",
-                        html_text(same_part_text(files))) +
-            comparison_table(files) + common_height_plot(files, options);
-  body += "<h2>File by file</h2>\n<div class=\"files\">\n";
-  for (const AuditedFile& file : files) body += "<article>\n" + file_part(file, each, /*alone=*/false) + "</article>\n";
-  return html_page("Ooze audit", body + "</div>\n</body>\n");
+    common += fmt::format("<p class=\"{}\">{}</p>\n", part_difference(files) > same_part_share ? "notice" : "pale",
+                          html_text(same_part_text(files))) +
+              comparison_table(files) + common_height_plot(files, options);
+  std::string parts = "<h2>File by file</h2>\n<div class=\"files\">\n";
+  for (const AuditedFile& file : files)
+    parts += "<article>\n" + summary_part(file, each) + pictures_part(file, each, /*alone=*/false) + "</article>\n";
+  return html_page("Ooze audit",
+                   "<body class=\"several\">\n" + sheet(common) + scene.place + sheet(parts + "</div>\n") +
+                       scene.scripts + "</body>\n",
+                   script);
 }
 
 }  // namespace cleancolor

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/error.hpp"
+#include "base/text_parts.hpp"
 #include "model/ini.hpp"
 #include "model/options.hpp"
 #include "model/profile.hpp"
@@ -63,6 +66,15 @@ std::optional<ProtectionLevel> protection_level(std::string_view word) {
   if (word == "rampart") return ProtectionLevel{.turns = true, .set = {"planner=plain"}};
   if (word == "none") return ProtectionLevel{.turns = false, .set = {"planner=plain", "rampart=off"}};
   return std::nullopt;
+}
+
+std::optional<double> azimuth_deg(std::string_view word, std::string_view name) {
+  if (word == "auto") return std::nullopt;
+  if (word == "off") return 0;
+  double degrees = 0;
+  if (!parse_whole(word, degrees) || !std::isfinite(degrees))
+    throw Error(fmt::format("{}: '{}' is neither auto nor off nor an angle in degrees", name, word));
+  return degrees;
 }
 
 Config config_of(const Settings& settings, const Progress& progress) {

@@ -36,6 +36,10 @@ struct ProtectionLevel {
 /// Nothing where there is no such level.
 std::optional<ProtectionLevel> protection_level(std::string_view word);
 
+/// How parts are turned, as in `cleancolor slice --azimuth`: "auto" (empty), "off" (0), or by so many degrees. Throws
+/// Error for anything else; name: what the message begins with.
+std::optional<double> azimuth_deg(std::string_view word, std::string_view name = "azimuth");
+
 /// Throws Error where a profile, file or option cannot be used, or where the options do not go together. Warns of what
 /// a loaded file contains and we ignore.
 Config config_of(const Settings& settings, const Progress& progress = {});

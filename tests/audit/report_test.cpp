@@ -282,6 +282,24 @@ TEST(AuditHtml, FetchesNothing) {
   }
 }
 
+TEST(AuditHtml, RunsNoScriptButThatOfItsScene) {
+  const MadeUp made;
+  const ReportScene scene{.place = "<div id=\"scene\"></div>\n",
+                          .scripts = "<script>draw()</script>\n",
+                          .script_sha256 = "abc=",
+                          .style = "#scene { height: 9px; }"};
+  for (const std::size_t count : {1u, 2u}) {
+    const std::vector<AuditedFile> files(count, made.file());
+    const std::string without = audit_html(files), html = audit_html(files, {}, scene);
+    EXPECT_FALSE(contains(without, "script-src"));
+    EXPECT_TRUE(contains(html, "style-src 'unsafe-inline'; script-src 'sha256-abc='\">"));
+    EXPECT_TRUE(contains(html, "#scene { height: 9px; }</style>"));
+    EXPECT_TRUE(contains(html, "<script>draw()</script>\n</body>"));
+    EXPECT_LT(html.find("<h1>"), html.find("<div id=\"scene\">"));
+    EXPECT_LT(html.find("<div id=\"scene\">"), html.find("From four sides"));
+  }
+}
+
 /// Tags that are opened and not closed, or closed and not opened.
 std::vector<std::string> unbalanced_tags(const std::string& html) {
   std::vector<std::string> open, faults;

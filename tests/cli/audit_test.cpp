@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "cli/command_line.hpp"
 #include "support_errors.hpp"
+#include "viewer/page.hpp"
 
 namespace cleancolor {
 namespace {
@@ -105,6 +107,7 @@ TEST(AuditArguments, AreRefusedWithWhatToDo) {
       {{"a", "--fail-over", "tireless.smear_volume=1"}, "there is no scenario 'tireless'"},
       {{"a", "--compare"}, "name at least two files"},
       {{"a", "--layer", "37"}, "say where to draw it"},
+      {{"a", "--no-scene"}, "write one by -o FILE.html"},
       {{"a", "--layer", "0", "--svg", "a.svg"}, "numbered from 1"},
       {{"a", "--layer", "-1", "--svg", "a.svg"}, "numbered from 1"},
       {{"a", "--svg", "a.png"}, "must end in .svg; a PNG is written by --png"},
@@ -198,6 +201,19 @@ TEST(AuditProgram, WritesEveryOutputTheSameForAnyNumberOfThreads) {
       EXPECT_TRUE(text == file_text(folder.path(fmt::format("1.{}", ending)))) << ending;
     }
   }
+}
+
+TEST(AuditProgram, WritesTheSceneIntoTheReportWhereItHasThePageAndNobodyForbidsIt) {
+  const TestFolder folder;
+  folder.file("a.gcode", two_walls());
+  const bool built = std::ranges::count(page_files(), "/report.js", &PageFile::path) == 1;
+  ASSERT_EQ(run(folder, std::string("a.gcode a.gcode --quiet -o with.html") + offsets).exit_code, exit_done);
+  ASSERT_EQ(run(folder, std::string("a.gcode a.gcode --quiet -o without.html --no-scene") + offsets).exit_code,
+            exit_done);
+  const std::string with = file_text(folder.path("with.html")), without = file_text(folder.path("without.html"));
+  EXPECT_EQ(with.find("id=\"cleancolor-1-audit\"") != with.npos, built);
+  EXPECT_EQ(with.find("data-names=\"a.gcode&#10;a.gcode\"") != with.npos, built);
+  EXPECT_EQ(without.find("<script"), without.npos);
 }
 
 TEST(AuditProgram, ExitsWith1WhereAFigureIsOverItsLimit) {

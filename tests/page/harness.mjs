@@ -6,6 +6,7 @@ import path from "node:path";
 import { fileURLToPath } from "node:url";
 
 export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "../..");
+export const program = process.env.CLEANCOLOR ?? path.join(root, "build/release/cli/cleancolor");
 export const out = path.join(root, "build/page-test");
 mkdirSync(out, { recursive: true });
 const require = createRequire(path.join(root, "viewer/page/package.json"));
@@ -28,7 +29,6 @@ export function summary() { console.log(`${passed} passed, ${failed} failed`); r
 
 /** Starts `cleancolor view` and resolves with its address and how to end it. */
 export function serve(files) {
-  const program = process.env.CLEANCOLOR ?? path.join(root, "build/release/cli/cleancolor");
   const child = spawn(program, ["view", "--no-browser", "--port", "0", ...files], { cwd: out });
   return new Promise((resolve, reject) => {
     let said = "";

@@ -3,14 +3,13 @@ import { execFileSync } from "node:child_process";
 import { existsSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { two_blocks, vase } from "./gcode.mjs";
-import { browser, out, root, serve, summary } from "./harness.mjs";
+import { browser, out, program, root, serve, summary } from "./harness.mjs";
 import { known_picture } from "./known_picture.mjs";
 import { report } from "./report.mjs";
 import { slicing } from "./slicing.mjs";
 import { first_picture, two_million } from "./speed.mjs";
 import { viewing } from "./viewing.mjs";
 
-const program = process.env.CLEANCOLOR ?? path.join(root, "build/release/cli/cleancolor");
 const model = (name) => path.join(root, "models", name);
 const file = (name) => path.join(out, name);
 for (const [name, protect] of [["protected.gcode", "full"], ["bare.gcode", "none"]])

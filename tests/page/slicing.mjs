@@ -29,6 +29,21 @@ export async function slicing(chrome, address) {
     await page.keyboard.press("Tab");
   });
 
+  await test("an azimuth is taken as --azimuth takes it, and what is none is told at its field", async () => {
+    const azimuth = page.locator("#option-azimuth"), error = page.locator("#option-azimuth-error");
+    assert.equal(await azimuth.getAttribute("placeholder"), "auto");
+    await page.selectOption("#protect", "none");
+    assert.equal(await azimuth.getAttribute("placeholder"), "off");
+    await page.selectOption("#protect", "full");
+    await azimuth.fill("north");
+    await page.keyboard.press("Tab");
+    await page.click("#slice");
+    await error.waitFor({ state: "visible" });
+    assert.match(await error.textContent(), /'north' is neither auto nor off/);
+    await azimuth.fill("");
+    await page.keyboard.press("Tab");
+  });
+
   await test("all options are there, and can be searched", async () => {
     await page.click("#all-options > summary");
     await page.fill("#option-search", "retract");
@@ -56,15 +71,18 @@ export async function slicing(chrome, address) {
 
   await test("a job that ends well is shown, and its G-code can be downloaded", async () => {
     await page.fill("#option-layer_height", "0.32");
+    await page.fill("#option-azimuth", "30");
     await page.keyboard.press("Tab");
     await page.click("#slice");
     await job(3, "done");
+    const { summary } = await (await page.request.get(new URL("/api/jobs/3", address).href)).json();
+    assert.equal(summary.azimuth_deg, 30);
     await picture(page, "sliced");
     await audited(page);
     const [file] = await Promise.all([page.waitForEvent("download"), page.click('#jobs li[data-job="3"] a')]);
     assert.match(file.suggestedFilename(), /\.gcode$/);
     await picture(page, "sliced");
-    // The 400 of the value out of range is the one complaint there is.
+    // The 400 of values out of range are the only complaints there are.
     assert.deepEqual(page.troubles.filter((t) => !/status of 400/.test(t)), []);
   });
   await page.context().close();

@@ -46,6 +46,17 @@ TEST(JobRequest, ProtectsWhereNothingElseIsSaid) {
   EXPECT_EQ(job.config.planner, Planner::clean);
 }
 
+TEST(JobRequest, TurnsAsTheAzimuthSaysWhateverTheProtection) {
+  const auto turned_by = [](const std::string& more) {
+    return job_request(R"({"meshes": [{"id": 1}], "printer": "replicator-dual", )" + more + "}", "").azimuth_deg;
+  };
+  EXPECT_EQ(turned_by(R"("azimuth": "auto", "protect": "none")"), std::nullopt);
+  EXPECT_EQ(turned_by(R"("azimuth": "off", "protect": "full")"), 0);
+  EXPECT_EQ(turned_by(R"("azimuth": "-37.5")"), -37.5);
+  EXPECT_EQ(turned_by(R"("azimuth": 90)"), 90);
+  EXPECT_EQ(turned_by(R"("azimuth": null, "protect": "none")"), 0);
+}
+
 TEST(JobRequest, NamesTheFieldAtFault) {
   const auto with = [](const std::string& more) { return refused(R"({"meshes": [{"id": 1}], )" + more + "}"); };
   EXPECT_EQ(with(R"("printer": "replicator-dual")"), "accepted");
@@ -64,6 +75,9 @@ TEST(JobRequest, NamesTheFieldAtFault) {
   EXPECT_EQ(with(R"("materials": "pla")"), "materials: materials: a list of texts is expected");
   EXPECT_EQ(with(R"("print": 5)"), "print: print: a text is expected");
   EXPECT_EQ(with(R"("protect": "some")").substr(0, 8), "protect:");
+  EXPECT_EQ(with(R"("azimuth": "north")"), "azimuth: azimuth: 'north' is neither auto nor off nor an angle in degrees");
+  EXPECT_EQ(with(R"("azimuth": "inf")").substr(0, 8), "azimuth:");
+  EXPECT_EQ(with(R"("azimuth": true)").substr(0, 8), "azimuth:");
   EXPECT_EQ(with(R"("colour": "red")").substr(0, 7), "colour:");
 }
 

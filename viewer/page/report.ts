@@ -8,10 +8,20 @@ import { viewer_layout } from "./src/ui/viewer_layout.ts";
 function start(): void {
   const page = document.getElementById("cleancolor-report");
   if (!page) return;
+  let layout;
+  try { layout = viewer_layout([]); } catch {
+    page.textContent = "This browser does not draw in three dimensions (WebGL).";
+    return;
+  }
+  const { viewer, main, help, say } = layout;
   page.classList.add("report");
-  const { viewer, main, help, say } = viewer_layout([]);
   page.append(main, help);
   set_test_hooks(viewer);
+  // The wheel scrolls the report, until somebody has clicked into the picture.
+  page.addEventListener("wheel", (e) => {
+    const on = e.target as HTMLElement;
+    if (on.classList.contains("picture") && on !== document.activeElement && !e.ctrlKey) e.stopPropagation();
+  }, { capture: true });
   const names = (page.dataset["names"] ?? "").split("\n");
   const sources = Array.from({ length: EmbeddedSource.count() }, (_, n) => ({ name: names[n] || `print ${n + 1}`, source: new EmbeddedSource(n) }));
   viewer.open(sources, say).catch((e: unknown) => say(e instanceof Error ? e.message : String(e)));

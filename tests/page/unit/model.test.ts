@@ -115,7 +115,7 @@ const profiles = [
   { group: "printer" as const, name: "p", description: "", extruders: 3, default_material: "abs", default_print: "fine", settings: { layer_height: "0.3" } },
   { group: "print" as const, name: "fine", description: "", settings: { layer_height: "0.1" } },
 ];
-const empty: Choice = { printer: "", print: "", materials: [], protect: "full", meshes: [{ id: 4, extruder: 5 }], changed: new Map([["perimeters", "2"]]) };
+const empty: Choice = { printer: "", print: "", materials: [], protect: "full", azimuth: "", meshes: [{ id: 4, extruder: 5 }], changed: new Map([["perimeters", "2"]]) };
 
 test("a printer brings its materials and print settings, and parts keep to its extruders", () => {
   const c = with_printer(empty, profiles, "p");

@@ -16,7 +16,7 @@ export interface Profile {
 }
 export interface Mesh { id: number; name: string; bytes: number }
 export interface JobRequest {
-  meshes: { id: number; extruder: number }[]; printer: string; materials: string[]; print: string; settings: Record<string, string>; protect: string;
+  meshes: { id: number; extruder: number }[]; printer: string; materials: string[]; print: string; settings: Record<string, string>; protect: string; azimuth?: string;
 }
 export interface Job {
   id: number; state: "queued" | "running" | "done" | "failed" | "cancelled"; position?: number; stage?: string; progress?: number;

@@ -4,8 +4,16 @@ import type { JobRequest, Option, Profile } from "../data/api.ts";
 /** Shown at once; all others are under "All options". */
 export const options_that_matter = ["layer_height", "perimeters", "fill_density", "fill_pattern", "rampart", "planner", "effort", "seam_position", "brim_width", "skirts"];
 
+/** Beside them, though it is no option of the table: by how much the parts are turned. */
+export const azimuth_option: Option = {
+  name: "azimuth", group: "print", section: "", unit: "", kind: "text", per_extruder: false, default: "auto",
+  help: "auto: so that idle nozzles hover least over another colour; off; or by so many degrees",
+};
+export const standing_azimuth = (choice: Choice) => (choice.protect === "none" ? "off" : "auto");
+
 export interface Choice {
   printer: string; print: string; materials: string[]; protect: string;
+  azimuth: string; // "": as the protection says
   meshes: { id: number; extruder: number }[];
   changed: Map<string, string>; // options the person has set
 }
@@ -36,7 +44,8 @@ export function with_printer(choice: Choice, profiles: Profile[], printer: strin
 }
 
 export function job_request(choice: Choice): JobRequest {
-  return { meshes: choice.meshes, printer: choice.printer, materials: choice.materials, print: choice.print, protect: choice.protect, settings: Object.fromEntries(choice.changed) };
+  const azimuth = choice.azimuth ? { azimuth: choice.azimuth } : {};
+  return { meshes: choice.meshes, printer: choice.printer, materials: choice.materials, print: choice.print, protect: choice.protect, ...azimuth, settings: Object.fromEntries(choice.changed) };
 }
 
 /** Words of a search, each of which must occur in name, help or section. */

@@ -1,6 +1,6 @@
 // The slicing panel: parts, printer, materials, options, and the button. What the server refuses is shown at its field.
 import { api, Refusal, type Mesh, type Option, type Profile } from "../data/api.ts";
-import { extruders_of, found, job_request, options_that_matter, standing_value, with_printer, type Choice } from "../model/slicing.ts";
+import { azimuth_option, extruders_of, found, job_request, options_that_matter, standing_azimuth, standing_value, with_printer, type Choice } from "../model/slicing.ts";
 import { el, field, option as choice_of } from "./dom.ts";
 import { option_field, type OptionField } from "./option_field.ts";
 import { amount } from "./words.ts";
@@ -11,13 +11,13 @@ const protections: [string, string][] = [["full", "full: azimuth, rampart, plann
 
 export function slicing(pick: () => void, started: (id: number) => void): Slicing {
   let options: Option[] = [], profiles: Profile[] = [], meshes: Mesh[] = [];
-  let choice: Choice = { printer: "", print: "", materials: [], protect: "full", meshes: [], changed: new Map() };
+  let choice: Choice = { printer: "", print: "", materials: [], protect: "full", azimuth: "", meshes: [], changed: new Map() };
   const fields = new Map<string, OptionField[]>();
 
   const parts = el("ul", { class: "parts" });
   const printer = el("select", { id: "printer", change: () => { choice = with_printer(choice, profiles, printer.value); refresh(); } });
   const print = el("select", { id: "print-settings", change: () => { choice.print = print.value; refresh(); } });
-  const protect = el("select", { id: "protect", change: () => { choice.protect = protect.value; } }, ...protections.map(([v, t]) => choice_of(v, t)));
+  const protect = el("select", { id: "protect", change: () => { choice.protect = protect.value; refresh(); } }, ...protections.map(([v, t]) => choice_of(v, t)));
   const materials = el("div", { class: "materials" });
   const few = el("div", { class: "options" });
   const search = el("input", { type: "search", id: "option-search", placeholder: "Search", "aria-label": "Search all options", input: () => filter() });
@@ -33,7 +33,7 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
     const refusal = e instanceof Refusal ? e : new Refusal(String(e), 0);
     const at = refusal.field ? fields.get(refusal.field) : undefined;
     if (at) {
-      if (!options_that_matter.includes(refusal.field!)) document.getElementById("all-options")!.setAttribute("open", "");
+      if (![azimuth_option.name, ...options_that_matter].includes(refusal.field!)) document.getElementById("all-options")!.setAttribute("open", "");
       at[0]!.complain(refusal.message);
     }
     const control = { printer, print, protect }[refusal.field ?? ""];
@@ -86,6 +86,7 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
       const remove = el("button", { type: "button", class: "quiet small", "aria-label": `Remove ${mesh?.name}`, click: () => { choice.meshes = choice.meshes.filter((x) => x !== m); void api.forget_mesh(m.id).catch(() => undefined); refresh(); } }, "×");
       return el("li", {}, el("span", { class: "name", title: mesh ? `${amount(mesh.bytes / 1000)} kB` : undefined }, mesh?.name ?? `mesh ${m.id}`), extruder, remove);
     }));
+    fields.get(azimuth_option.name)?.forEach((f) => f.show(choice.azimuth || undefined, standing_azimuth(choice)));
     for (const o of options) fields.get(o.name)?.forEach((f) => f.show(choice.changed.get(o.name), standing_value(o, profiles, choice)));
   }
 
@@ -99,6 +100,9 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
     const start = printers.find((p) => p.chosen) ?? printers.find((p) => p.name === "replicator-dual") ?? printers.find((p) => (p.extruders ?? 1) > 1) ?? printers[0];
     if (start) choice = with_printer(choice, profiles, start.name);
     for (const name of options_that_matter) { const o = options.find((x) => x.name === name); if (o) add_option(o, few, "option"); }
+    const azimuth = option_field(azimuth_option, "option", (text) => { choice.azimuth = text ?? ""; refresh(); });
+    fields.set(azimuth_option.name, [azimuth]);
+    few.prepend(azimuth.element);
     const sections = new Map<string, HTMLElement>();
     for (const o of options) {
       const key = `${o.group}: ${o.section}`;
