@@ -31,6 +31,10 @@ namespace {
 
 /// How far the first stage runs ahead of the writer, in layers beyond what the skins look at.
 constexpr int layers_ahead = 12;
+/// Likewise the planner: a planned layer holds its map, of 1 MB or so, and its roadmap until it is written.
+constexpr int planned_ahead(int threads) {
+  return 2 * threads + 1;
+}
 
 std::vector<Part> parts_of(const SliceRequest& request, const Progress& progress) {
   std::vector<std::vector<Part>> files;
@@ -208,7 +212,7 @@ class Print {
                      .stages = {{0, [&](int k) { slot(shells_, k) = layer_shells(slices_, k, config_); }},
                                 {reach, [&](int k) { slot(areas_, k) = layer_areas(shells_, k, config_); }},
                                 {1, [&](int k) { make_paths(k); }},
-                                {0, [&](int k) { plan(k); }}},
+                                {0, [&](int k) { plan(k); }, planned_ahead(threads)}},
                      .consume = [&](int k) { write(k); }},
                     threads);
     judge_losses();

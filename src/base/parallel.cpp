@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cassert>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -87,9 +88,11 @@ class Schedule {
 
   /// The first index that stage s may not begin yet.
   int allowed(std::size_t s) const {
-    if (s == 0) return std::min(stream_.count, consumed_ + stream_.window);
+    const Stage& stage = stream_.stages[s];
+    const int ahead = int(std::min<std::int64_t>(stream_.count, std::int64_t(consumed_) + stage.ahead));
+    if (s == 0) return std::min(ahead, consumed_ + stream_.window);
     const int before = stages_[s - 1].done_up_to;
-    return before == stream_.count ? before : std::max(0, before - stream_.stages[s].reach);
+    return std::min(ahead, before == stream_.count ? before : std::max(0, before - stage.reach));
   }
 
   void step(std::unique_lock<std::mutex>& lock, const std::function<void(int)>& body, int i) {
@@ -137,8 +140,11 @@ void parallel_for(int count, int threads, const std::function<void(int)>& body) 
 
 void run(const Stream& stream, int threads) {
   assert(!stream.stages.empty());
-  int reach = 0;
-  for (const Stage& stage : stream.stages) reach += stage.reach;
+  int reach = 0;  // of the stages after the one looked at
+  for (auto stage = stream.stages.rbegin(); stage != stream.stages.rend(); ++stage) {
+    assert(stage->ahead > reach);
+    reach += stage->reach;
+  }
   assert(stream.window > reach);
   (void)reach;
   Schedule schedule(stream);

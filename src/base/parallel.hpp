@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace cleancolor {
@@ -21,6 +22,8 @@ void parallel_for(int count, int threads, const std::function<void(int)>& body);
 struct Stage {
   int reach = 0;
   std::function<void(int)> body;
+  /// It begins no index so far beyond the first that the end has not had; few where its results are large.
+  int ahead = std::numeric_limits<int>::max();
 };
 
 /// Stages over the indices 0 ... count - 1, then a serial end.
@@ -32,7 +35,8 @@ struct Stream {
 };
 
 /// Runs the stream on `threads` threads (0: as many as the machine has).
-/// Requires: window > the sum of all reaches, else the stream could wait for itself.
+/// Requires: window > the sum of all reaches, and a stage's ahead > the sum of those after it, else the stream could
+/// wait for itself.
 void run(const Stream& stream, int threads);
 
 }  // namespace cleancolor

@@ -77,6 +77,29 @@ TEST(Stream, GivesEachStageWhatItReachesAndTheEndInOrder) {
   EXPECT_EQ(alone.second[100], 7 * 101);
 }
 
+TEST(Stream, AStageRunsNoFurtherAheadThanItMay) {
+  std::atomic<int> consumed = 0, most = 0;
+  std::atomic<bool> ran_ahead = false;
+  run({.count = 100,
+       .window = 20,
+       .stages = {{0, [](int) {}},
+                  {2,
+                   [&](int i) {
+                     const int ahead = i - consumed;
+                     if (ahead >= 3) ran_ahead = true;
+                     if (ahead > most) most = ahead;
+                   },
+                   3}},
+       .consume =
+           [&](int i) {
+             if (i % 10 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+             ++consumed;
+           }},
+      4);
+  EXPECT_EQ(consumed, 100);
+  EXPECT_FALSE(ran_ahead) << most;
+}
+
 TEST(Stream, NeverRunsFurtherAheadThanItsWindow) {
   std::atomic<int> prepared = 0;
   std::atomic<int> most = 0;
