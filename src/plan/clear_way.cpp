@@ -15,9 +15,8 @@ constexpr double coarse_mm = 0.5, fine_mm = 0.25, finest_mm = 0.08;
 constexpr double near_mm = 8;         // hops that the finest is for, and its margin
 constexpr double most_nodes = 1.5e6;  // further apart where there would be more
 constexpr double wide_mm = 45;        // around both ends
-constexpr double hurry = 1.5;         // of the rest of the way: fewer nodes are looked at, a way may be a little dearer
+constexpr float hurry = 1.5F;         // of the rest of the way: fewer nodes are looked at, a way may be a little dearer
 constexpr double largest_pocket_mm2 = 1500;
-constexpr int unsettled = -1;
 
 /// Nodes so far apart, the first end on one of them, each joined to its eight neighbours.
 class Grid {
@@ -32,18 +31,16 @@ class Grid {
     const auto cells = [&](double mm) { return int(std::ceil(mm / cell_mm_)) + border; };
     const int left = cells(std::max(0., from_mm.x - to_mm.x) + margin_mm);
     const int below = cells(std::max(0., from_mm.y - to_mm.y) + margin_mm);
-    const int columns = left + cells(std::max(0., to_mm.x - from_mm.x) + margin_mm) + 1;
+    columns_ = left + cells(std::max(0., to_mm.x - from_mm.x) + margin_mm) + 1;
     const int rows = below + cells(std::max(0., to_mm.y - from_mm.y) + margin_mm) + 1;
-    while (1 << column_bits_ < columns) ++column_bits_;
+    rows_of_node_ = 1. / columns_;
     low_ = from_mm - Vec2{double(left), double(below)} * cell_mm_;
     from_ = node(left, below);
     const Vec2 to = (to_mm - low_) * (1 / cell_mm_);
     to_ = node(int(std::lround(to.x)), int(std::lround(to.y)));
     passable_.assign(std::size_t(node(0, rows)), unknown);
-    for (int x = 0; x < 1 << column_bits_; ++x) passable_[at(node(x, 0))] = passable_[at(node(x, rows - 1))] = no;
-    for (int y = 0; y < rows; ++y)
-      for (int x = columns - 1; x < 1 << column_bits_; ++x) passable_[at(node(x, y))] = no;
-    for (int y = 0; y < rows; ++y) passable_[at(node(0, y))] = no;
+    for (int x = 0; x < columns_; ++x) passable_[at(node(x, 0))] = passable_[at(node(x, rows - 1))] = no;
+    for (int y = 0; y < rows; ++y) passable_[at(node(0, y))] = passable_[at(node(columns_ - 1, y))] = no;
     over_.resize(passable_.size(), NAN);
   }
 
@@ -71,13 +68,12 @@ class Grid {
     return true;
   }
 
-  /// Of the nodes that a cheap clear way passes; empty: none is so short.
+  /// Of the nodes that a cheap clear way passes; empty: none is so short. Can be asked once.
   std::vector<Vec2> cheap(double longest_mm) {
-    using Label = std::pair<double, int>;  // cost with the estimated rest, node
+    using Label = std::pair<float, int>;  // cost with the estimated rest, node
     struct Known {
-      double cost = std::numeric_limits<double>::infinity(), way_mm = 0;
-      int before = -1;
-      bool settled = false;
+      float cost = std::numeric_limits<float>::infinity(), way_mm = 0;
+      int before = 0;
     };
     std::vector<Known> known(passable_.size());
     std::vector<Label> heap{{0, from_}};
@@ -86,15 +82,16 @@ class Grid {
       std::ranges::pop_heap(heap, std::greater());
       const int node = heap.back().second;
       heap.pop_back();
-      Known& here = known[at(node)];
-      if (here.settled) continue;
-      here.settled = true;
+      if (passable_[at(node)] == no) continue;
+      passable_[at(node)] = no;  // it is settled
+      const Known here = known[at(node)];
       if (node == to_) return read_back(known);
       for_neighbours(node, [&](int other, double edge_mm) {
         Known& there = known[at(other)];
-        const double cost = here.cost + edge_mm * (1 + (over(node) + over(other)) / 2), way_mm = here.way_mm + edge_mm;
-        if (there.settled || cost >= there.cost) return;
-        const double rest_mm = std::sqrt(length_squared(place(other) - to_mm_));
+        const float cost = here.cost + float(edge_mm) * (1 + (over(node) + over(other)) / 2);
+        const float way_mm = here.way_mm + float(edge_mm);
+        if (cost >= there.cost) return;
+        const auto rest_mm = float(std::sqrt(length_squared(place(other) - to_mm_)));
         if (way_mm + rest_mm > longest_mm || cost_.crosses(place(node), place(other), hardly_visible)) return;
         there = {cost, way_mm, node};
         heap.emplace_back(cost + hurry * rest_mm, other);
@@ -109,10 +106,11 @@ class Grid {
   enum Passable : char { unknown, yes, no };
 
   static std::size_t at(int node) { return std::size_t(node); }
-  int node(int x, int y) const { return (y << column_bits_) + x; }
+  int node(int x, int y) const { return y * columns_ + x; }
   Vec2 place(int node) const {
     if (node == to_) return to_mm_;
-    return low_ + Vec2{double(node & ((1 << column_bits_) - 1)), double(node >> column_bits_)} * cell_mm_;
+    const int row = int((node + 0.5) * rows_of_node_);
+    return low_ + Vec2{double(node - row * columns_), double(row)} * cell_mm_;
   }
 
   /// Whether the nozzle reaches the node, and none there hangs over what is barred.
@@ -135,7 +133,7 @@ class Grid {
 
   template <class Visit>
   void for_neighbours(int node, Visit visit) {
-    const int row = 1 << column_bits_;
+    const int row = columns_;
     for (const int other : {node - row, node - 1, node + 1, node + row})
       if (is_passable(other)) visit(other, cell_mm_);
     for (const int other : {node - row - 1, node - row + 1, node + row - 1, node + row + 1})
@@ -144,8 +142,8 @@ class Grid {
 
   template <class Known>
   std::vector<Vec2> read_back(const std::vector<Known>& known) const {
-    std::vector<Vec2> way;
-    for (int node = to_; node != from_; node = known[at(node)].before) way.push_back(place(node));
+    std::vector<Vec2> way{to_mm_};
+    for (int node = known[at(to_)].before; node != from_; node = known[at(node)].before) way.push_back(place(node));
     way.push_back(from_mm_);
     std::ranges::reverse(way);
     return way;
@@ -155,7 +153,8 @@ class Grid {
   double cell_mm_ = fine_mm;
   const TravelCost::Nozzle& nozzle_;
   Vec2 from_mm_, to_mm_, low_;
-  int column_bits_ = 0;  // a row has 2^column_bits_ nodes
+  int columns_ = 0;
+  double rows_of_node_ = 0;  // 1 / columns_
   int from_ = 0, to_ = 0;
   std::vector<char> passable_;
   std::vector<float> over_;  // NaN: not known yet

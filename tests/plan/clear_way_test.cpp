@@ -69,6 +69,19 @@ TEST(ClearWay, GoesAroundOtherColoursAsFarAsAllowed) {
   EXPECT_TRUE(clear_way(cost, 0, {0, 15}, {11, 15}, 14).empty());
 }
 
+// A gap so short that both ends lie on one node of the coarse grid.
+TEST(ClearWay, OfAHopWithinOneCellHasBothEnds) {
+  const DrawnLayer layer({{}, rectangle({5, 0}, {5.2, 1})});
+  const LayerMap map = layer.map();
+  const TravelCost cost(map, {{0, {0, 0}, {}}}, {});
+  const Vec2 from{4.9, 0.9}, to{5.05, 1.1};
+  const std::vector<Vec2> way = clear_way(cost, 0, from, to, 40);
+  ASSERT_GE(way.size(), 2U);
+  EXPECT_EQ(way.front(), from);
+  EXPECT_EQ(way.back(), to);
+  EXPECT_FALSE(crosses(cost, way));
+}
+
 TEST(ClearWay, StaysWhereTheNozzleReaches) {
   const DrawnLayer layer({{}, rectangle({5, 0}, {6, 20})});
   const LayerMap map = layer.map();
