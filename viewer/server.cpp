@@ -43,7 +43,9 @@ void send_bytes(httplib::Response& response, const std::string& type, std::strin
   if (bytes.empty()) return response.set_content("", type);
   response.set_content_provider(bytes.size(), type,
                                 [bytes, holder](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-                                  sink.write(bytes.data() + offset, std::min(length, bytes_per_piece));
+                                  if (offset >= bytes.size()) return false;
+                                  const std::string_view piece = bytes.substr(offset, std::min(length, bytes_per_piece));
+                                  sink.write(piece.data(), piece.size());
                                   return true;
                                 });
 }
@@ -71,8 +73,10 @@ void send_file(httplib::Response& response, const Answer& answer) {
   response.set_header("Content-Disposition", disposition(answer.file_name));
   if (size == 0) return response.set_content("", answer.type);
   response.set_content_provider(
-      size, answer.type, [in, holder = answer.file](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        std::string piece(std::min(length, bytes_per_piece), '\0');
+      size, answer.type,
+      [in, size, holder = answer.file](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        if (offset >= size) return false;
+        std::string piece(std::min({length, std::size_t(size) - offset, bytes_per_piece}), '\0');
         in->seekg(std::streamoff(offset));
         if (!in->read(piece.data(), std::streamsize(piece.size()))) return false;
         sink.write(piece.data(), piece.size());
@@ -84,6 +88,7 @@ void send(httplib::Response& response, const Answer& answer) {
   if (answer.status != 200) response.status = answer.status;
   if (!answer.allow.empty()) response.set_header("Allow", answer.allow);
   if (answer.file) return send_file(response, answer);
+  if (answer.status != 200) return response.set_content(*answer.body, answer.type);
   if (answer.body) return send_bytes(response, answer.type, *answer.body, answer.body);
   response.headers.erase("Cache-Control");
   response.set_header("Cache-Control", "no-cache");
@@ -217,6 +222,8 @@ bool Server::Http::refuses(const httplib::Request& request, httplib::Response& r
 
 httplib::Server::HandlerResponse Server::Http::before(const httplib::Request& request, httplib::Response& response) {
   using enum httplib::Server::HandlerResponse;
+  // The library checks no range against what there is: none is heeded, so everybody gets the whole.
+  const_cast<httplib::Request&>(request).ranges.clear();
   if (refuses(request, response)) return Handled;
   if (api.body_rule(request.method, request.path)) return Unhandled;  // receive() goes on with it
   send(response, api.answer(asked_of(request)));

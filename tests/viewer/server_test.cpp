@@ -200,6 +200,27 @@ TEST_F(ViewerAccess, LogsWhatItRefusesWithoutTheToken) {
   EXPECT_EQ(lines[1].find(server_.access().token), std::string::npos);
 }
 
+TEST_F(ViewerAccess, HeedsNoRanges) {
+  const std::string options = client_.Get("/api/options")->body;
+  post("/api/prints?name=small.gcode", small_gcode());
+  httplib::Client stranger("127.0.0.1", server_.access().port);
+  const std::string refused = stranger.Get("/api/options")->body;
+  for (const char* range : {"bytes=0-0", "bytes=100-", "bytes=-5", "bytes=100000000-100000100", "bytes=0-99999999999",
+                            "bytes=-99999999999", "bytes=0-0,100000000-100000100", "bytes=0-1,2-3,-1"}) {
+    SCOPED_TRACE(range);
+    const httplib::Headers own = {{"Range", range}, {"Authorization", "Bearer " + server_.access().token}};
+    const auto table = client_.Get("/api/options", own);
+    EXPECT_EQ(table->status, 200);
+    EXPECT_EQ(table->body, options);
+    const auto file = client_.Get("/api/prints/1/gcode", own);
+    EXPECT_EQ(file->status, 200);
+    EXPECT_EQ(file->body, small_gcode());
+    const auto nobody = stranger.Get("/api/options", {{"Range", range}});
+    EXPECT_EQ(nobody->status, 401);
+    EXPECT_EQ(nobody->body, refused);
+  }
+}
+
 TEST(ViewerPort, IsAnotherOneWhereTheUsualOneIsTaken) {
   Api api({});
   const Server first(api, {.port = 0});
