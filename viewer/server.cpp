@@ -41,13 +41,13 @@ Headers headers_of(const httplib::Request& request) {
 /// In pieces, and without compression, which takes longer than the way to the browser.
 void send_bytes(httplib::Response& response, const std::string& type, std::string_view bytes, const Bytes& holder) {
   if (bytes.empty()) return response.set_content("", type);
-  response.set_content_provider(bytes.size(), type,
-                                [bytes, holder](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-                                  if (offset >= bytes.size()) return false;
-                                  const std::string_view piece = bytes.substr(offset, std::min(length, bytes_per_piece));
-                                  sink.write(piece.data(), piece.size());
-                                  return true;
-                                });
+  response.set_content_provider(
+      bytes.size(), type, [bytes, holder](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        if (offset >= bytes.size()) return false;
+        const std::string_view piece = bytes.substr(offset, std::min(length, bytes_per_piece));
+        sink.write(piece.data(), piece.size());
+        return true;
+      });
 }
 
 /// name="..." of a download: plain letters for old readers, all of them for new ones.
@@ -62,14 +62,13 @@ std::string disposition(const std::string& name) {
   return fmt::format("attachment; filename=\"{}\"; filename*=UTF-8''{}", plain, escaped);
 }
 
+void send(httplib::Response& response, const Answer& answer);
+
 void send_file(httplib::Response& response, const Answer& answer) {
   std::error_code fault;
   const auto size = std::filesystem::file_size(answer.file->path(), fault);
   const auto in = std::make_shared<std::ifstream>(answer.file->path(), std::ios::binary);
-  if (fault || !*in) {
-    response.status = 404;
-    return send_bytes(response, "application/json", *refusal(404, "the file is gone").body, nullptr);
-  }
+  if (fault || !*in) return send(response, refusal(404, "the file is gone"));
   response.set_header("Content-Disposition", disposition(answer.file_name));
   if (size == 0) return response.set_content("", answer.type);
   response.set_content_provider(

@@ -262,6 +262,14 @@ TEST_F(ViewerPrints, AreDrawnThenAudited) {
   EXPECT_EQ(get("/api/prints"), json::array());
 }
 
+TEST_F(ViewerPrints, SayWhereTheFileIsGone) {
+  post("/api/prints?name=small.gcode", small_gcode());
+  until("/api/prints/1", {"audited"});
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(api_.temporary()))
+    if (entry.is_regular_file()) std::filesystem::remove(entry.path());
+  EXPECT_EQ(get("/api/prints/1/gcode", 404).at("error").at("message"), "the file is gone");
+}
+
 TEST_F(ViewerPrints, SayWhyTheyFail) {
   post("/api/prints?name=bad.gcode", "G1 X1 Y\xff\n");
   const json bad = until("/api/prints/1", {"failed"});
