@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <mutex>
@@ -12,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/printable.hpp"
+#include "viewer/connection.hpp"
 #include "viewer/page.hpp"
 
 namespace cleancolor {
@@ -136,17 +138,41 @@ class Receiver {
   std::uint64_t received_ = 0;
 };
 
+/// The library's server, but with connections of which none lasts for ever.
+class HttpServer : public httplib::Server {
+ public:
+  explicit HttpServer(double patience_s) : patience_s_(patience_s) {}
+
+  /// Cuts off who is still being served.
+  void stop_soon() {
+    stopping_ = true;
+    stop();
+  }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    Connection connection(socket, patience_s_, stopping_);
+    bool closed = false;
+    const bool done = process_request(connection, /*close_connection=*/true, closed, nullptr);
+    connection.close();
+    return done;
+  }
+
+  double patience_s_;
+  std::atomic<bool> stopping_ = false;
+};
+
 }  // namespace
 
 struct Server::Http {
-  Http(Api& api_, const Access& access_, std::function<void(const std::string&)> refused_)
-      : api(api_), access(access_), refused(std::move(refused_)) {}
+  Http(Api& api_, const Access& access_, const ServerOptions& options)
+      : api(api_), access(access_), refused(options.refused), server(options.patience_s) {}
 
   Api& api;
   const Access& access;
   std::function<void(const std::string&)> refused;
   std::mutex log_mutex;
-  httplib::Server server;
+  HttpServer server;
   std::thread listening;
 
   void prepare();
@@ -159,10 +185,7 @@ struct Server::Http {
 };
 
 void Server::Http::prepare() {
-  server.set_keep_alive_max_count(1);
   server.set_tcp_nodelay(true);
-  server.set_read_timeout(10);
-  server.set_write_timeout(10);
   server.set_default_headers(safe_headers);
   // The library would share the port with another server that has it already.
   server.set_socket_options([](socket_t socket) {
@@ -258,13 +281,13 @@ void Server::Http::log(const httplib::Request& request, const httplib::Response&
 
 Server::Server(Api& api, const ServerOptions& options)
     : access_{.token = random_token(), .address = options.address},
-      http_(std::make_unique<Http>(api, access_, options.refused)) {
+      http_(std::make_unique<Http>(api, access_, options)) {
   http_->prepare();
   http_->listen(options, access_);
 }
 
 Server::~Server() {
-  http_->server.stop();
+  http_->server.stop_soon();
   http_->listening.join();
 }
 

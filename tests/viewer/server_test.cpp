@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -227,6 +228,69 @@ TEST(ViewerPort, IsAnotherOneWhereTheUsualOneIsTaken) {
   const int port = first.access().port;
   EXPECT_ERROR(Server(api, {.port = port}), "is it taken?");
   EXPECT_ERROR(Server(api, {.address = "203.0.113.1", .port = 0}), "cannot listen");
+}
+
+/// A client that does as little as it can.
+class SlowClient {
+ public:
+  SlowClient(const Server& server, const std::string& first) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    const int small = 4096;
+    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(std::uint16_t(server.access().port));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+    EXPECT_TRUE(say(first));
+  }
+  ~SlowClient() { ::close(socket_); }
+  SlowClient(const SlowClient&) = delete;
+  SlowClient& operator=(const SlowClient&) = delete;
+
+  bool say(const std::string& bytes) const {
+    return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == ssize_t(bytes.size());
+  }
+
+ private:
+  int socket_;
+};
+
+std::string head(const Server& server, const std::string& request) {
+  return request + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server.access().port) +
+         "\r\nAuthorization: Bearer " + server.access().token + "\r\n";
+}
+
+TEST(ViewerClients, KeepNoServerFromStopping) {
+  const TempFolder folder;
+  const std::filesystem::path large = folder.path() / "large.gcode";
+  std::ofstream(large) << std::string(30'000'000, ';');
+  Api api({});
+  api.add_print(large);
+  auto server = std::make_unique<Server>(api, ServerOptions{.port = 0});
+  const SlowClient silent(*server, ""), half_a_head(*server, "GET /api/pri"),
+      half_a_body(*server, head(*server, "POST /api/jobs") + "Content-Length: 1000\r\n\r\n{"),
+      takes_nothing(*server, head(*server, "GET /api/prints/1/gcode") + "\r\n");
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const auto since = std::chrono::steady_clock::now();
+  server.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - since, std::chrono::seconds(3));
+}
+
+TEST(ViewerClients, AreCutOffWhereTheyTrickle) {
+  Api api({});
+  const Server server(api, {.port = 0, .patience_s = 0.5});
+  const SlowClient in_the_head(server, head(server, "GET /api/prints") + "X: "),
+      in_the_body(server, head(server, "POST /api/jobs") + "Content-Length: 100000\r\n\r\n");
+  const auto since = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - since < std::chrono::seconds(2)) {
+    (void)in_the_head.say("x");
+    (void)in_the_body.say(" ");
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  httplib::Client other("127.0.0.1", server.access().port);
+  EXPECT_EQ(other.Get("/api/prints")->status, 401);
+  EXPECT_FALSE(in_the_head.say("x") && in_the_head.say("x"));
+  EXPECT_FALSE(in_the_body.say(" ") && in_the_body.say(" "));
 }
 
 using ViewerPrints = Served;
