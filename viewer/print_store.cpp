@@ -144,7 +144,8 @@ void PrintStore::judge(const EntryHandle& entry, const std::shared_ptr<Drawn>& d
     const AuditResult result = audit(drawn->print, drawn->machine, options, progress);
     progress.advance("places", 0);
     const PlaceArrays places = place_arrays(drawn->print, drawn->machine, result, threads_);
-    const Bytes file = bytes(places_file(places, result.scenarios.front().total));
+    const Bytes file =
+        bytes(places_file(places, result.scenarios.front().total, options.scenarios.front(), drawn->machine));
     const AuditedFile audited{.name = entry->source.name,
                               .print = &drawn->print,
                               .machine = &drawn->machine,
