@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/printable.hpp"
+#include "viewer/api_error.hpp"
 #include "viewer/connection.hpp"
 #include "viewer/page.hpp"
 
@@ -260,12 +261,14 @@ void Server::Http::receive(const httplib::Request& request, httplib::Response& r
     return send(response, refusal(415, "the body is the file itself, not a form with it"));
   Asked asked = asked_of(request);
   try {
-    Receiver receiver(*rule, rule->upload ? api.new_upload(asked.query) : nullptr);
+    Receiver receiver(*rule, rule->upload ? api.new_upload(asked) : nullptr);
     const bool whole = read([&](const char* bytes, std::size_t count) { return receiver.take(bytes, count); });
     if (receiver.too_large())
       return send(response, refusal(413, fmt::format("too large: at most {} bytes are taken", rule->most_bytes)));
     if (!whole) return send(response, refusal(response.status >= 400 ? response.status : 400, "the body is cut short"));
     receiver.finish(asked);
+  } catch (const ApiError& e) {
+    return send(response, refusal(e.status(), e.what(), e.field()));
   } catch (const Error& e) {
     return send(response, refusal(500, e.what()));
   }

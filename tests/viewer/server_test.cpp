@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <mutex>
@@ -351,6 +352,44 @@ TEST_F(ViewerPrints, TakeTheNozzlesFromTheQuery) {
   EXPECT_EQ(post("/api/prints?printer=/etc/passwd", "G1", 400).at("error").at("field"), "printer");
 }
 
+TEST_F(ViewerPrints, CheckTheQueryBeforeTheUpload) {
+  const std::string answer =
+      raw(head(server_, "POST /api/prints?nozzle_offset=far") + "Content-Length: 90000\r\n\r\nG1");
+  EXPECT_NE(answer.find(" 400 "), answer.npos) << answer;
+  EXPECT_NE(answer.find("nozzle_offset"), answer.npos) << answer;
+}
+
+TEST(ViewerStore, TakesNoFurtherPrintWhereMuchIsKept) {
+  Api api({.threads = 2, .most_kept_bytes = 1000});
+  const TempFolder folder;
+  std::ofstream(folder.path() / "a.gcode") << small_gcode();
+  api.add_print(folder.path() / "a.gcode");
+  const auto state = [&] {
+    return json::parse(*api.answer({.method = "GET", .path = "/api/prints/1"}).body).at("state").get<std::string>();
+  };
+  for (int i = 0; i < 6000 && state() != "audited"; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_ERROR(api.new_upload({.method = "POST", .path = "/api/prints"}), "forget a print first");
+  EXPECT_EQ(api.answer({.method = "DELETE", .path = "/api/prints/1"}).status, 200);
+  EXPECT_TRUE(api.new_upload({.method = "POST", .path = "/api/prints"}));
+}
+
+TEST(ViewerStore, JudgesAllThatWereAddedAtOnce) {
+  Api api({.threads = 2});
+  const TempFolder folder;
+  std::ofstream(folder.path() / "a.gcode") << small_gcode();
+  constexpr int count = 20;
+  for (int i = 0; i < count; ++i) api.add_print(folder.path() / "a.gcode");
+  EXPECT_EQ(api.answer({.method = "DELETE", .path = "/api/prints/7"}).status, 200);
+  const auto audited = [&] {
+    const json all = json::parse(*api.answer({.method = "GET", .path = "/api/prints"}).body);
+    const auto drawn = std::ranges::count_if(all, [](const json& p) { return p.at("state") == "drawn"; });
+    EXPECT_LE(drawn, PrintStore::most_unjudged);
+    return std::ranges::count_if(all, [](const json& p) { return p.at("state") == "audited"; });
+  };
+  for (int i = 0; i < 12000 && audited() < count - 1; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(audited(), count - 1);
+}
+
 TEST_F(ViewerPrints, RefuseWhatIsTooLarge) {
   const json error = post("/api/prints?name=big.gcode", std::string(150'000, ';'), 413);
   EXPECT_EQ(error.at("error").at("message"), "too large: at most 100000 bytes are taken");
@@ -441,6 +480,47 @@ TEST_F(ViewerJobs, AreRefusedWhereTooManyWait) {
   until("/api/jobs/1", {"running"});
   for (std::size_t i = 0; i < JobQueue::most_waiting; ++i) post("/api/jobs", slow);
   post("/api/jobs", slow, 503);
+}
+
+TEST_F(ViewerJobs, AreRefusedWhereTheirPrintWouldFindNoRoom) {
+  const int mesh = model("two-color-world-50mm_ocean.stl");
+  const std::string slow = job(mesh, R"({"layer_height": "0.05", "first_layer_height": "0.05"})");
+  for (std::size_t i = 0; i < PrintStore::most_prints; ++i) post("/api/prints", "G1 X1 Y\xff\n");
+  EXPECT_NE(post("/api/jobs", slow, 503).at("error").at("message").get<std::string>().find("forget a print first"),
+            std::string::npos);
+  remove("/api/prints/1");
+  post("/api/jobs", slow);
+  post("/api/jobs", slow, 503);
+  post("/api/prints", "G1", 503);  // the place is the job's
+  remove("/api/jobs/1");
+  until("/api/jobs/1", {"cancelled"});
+  post("/api/prints", "G1");
+}
+
+TEST_F(ViewerJobs, LeaveNothingWhereTheyAreCancelledAgainAndAgain) {
+  const int mesh = model("two-color-world-50mm_ocean.stl");
+  const std::string slow = job(mesh, R"({"layer_height": "0.05", "first_layer_height": "0.05"})");
+  post("/api/jobs", slow);
+  until("/api/jobs/1", {"running"});
+  for (int i = 0; i < 200; ++i) remove("/api/jobs/" + post("/api/jobs", slow).at("id").dump());
+  EXPECT_EQ(get("/api/jobs").size(), 1 + JobQueue::most_ended);
+  const std::filesystem::directory_iterator folders(api_.temporary());
+  EXPECT_LE(std::distance(begin(folders), end(folders)), 2);  // of the mesh, and of the job that runs
+}
+
+TEST_F(ViewerJobs, AreDoneOrCancelledButNeverBoth) {
+  const int mesh = model("4-cones_white.stl");
+  for (int i = 0; i < 12; ++i) {
+    SCOPED_TRACE(i);
+    const std::string path = "/api/jobs/" + post("/api/jobs", job(mesh, R"({"layer_height": "0.3"})")).at("id").dump();
+    std::this_thread::sleep_for(std::chrono::milliseconds(40 * i));
+    const std::size_t before = get("/api/prints").size();
+    remove(path);
+    const auto left = client_.Get(path.c_str());
+    if (left->status == 404) continue;  // it was done, and has been forgotten
+    EXPECT_EQ(until(path, {"done", "failed", "cancelled"}).at("state"), "cancelled");
+    EXPECT_EQ(get("/api/prints").size(), before);
+  }
 }
 
 TEST_F(ViewerJobs, SayWhichFieldIsAtFault) {
