@@ -523,6 +523,18 @@ TEST_F(ViewerJobs, AreDoneOrCancelledButNeverBoth) {
   }
 }
 
+TEST_F(ViewerJobs, FindWhatProtectionStandsFor) {
+  json levels = json::object();
+  for (const json& profile : get("/api/profiles"))
+    if (profile.at("group") == "protection") levels[profile.at("name").get<std::string>()] = profile;
+  EXPECT_EQ(levels.size(), 3u);
+  EXPECT_EQ(levels.at("none").at("settings"), json({{"planner", "plain"}, {"rampart", "off"}}));
+  EXPECT_EQ(levels.at("none").at("turns"), false);
+  EXPECT_EQ(levels.at("rampart").at("settings"), json({{"planner", "plain"}}));
+  EXPECT_EQ(levels.at("full").at("settings"), json::object());
+  EXPECT_EQ(levels.at("full").at("turns"), true);
+}
+
 TEST_F(ViewerJobs, SayWhichFieldIsAtFault) {
   const int mesh = model("4-cones_white.stl");
   EXPECT_EQ(post("/api/jobs", job(mesh, R"({"layer_height": "9"})"), 400).at("error").at("field"), "layer_height");
