@@ -277,9 +277,12 @@ void Server::Http::receive(const httplib::Request& request, httplib::Response& r
 
 void Server::Http::log(const httplib::Request& request, const httplib::Response& response) {
   if (response.status < 400) return;
+  // Of what is no HTTP the library may know neither the path nor who sent it.
+  std::string what = request.method.empty() ? "a request" : printable(request.method);
+  if (!request.path.empty()) what += " " + printable(request.path);
+  if (!request.remote_addr.empty()) what += " from " + request.remote_addr;
   const std::lock_guard lock(log_mutex);
-  refused(fmt::format("{} {} from {}: refused with {}", printable(request.method), printable(request.path),
-                      request.remote_addr, response.status));
+  refused(fmt::format("{}: refused with {}", what, response.status));
 }
 
 Server::Server(Api& api, const ServerOptions& options)

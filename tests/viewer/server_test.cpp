@@ -202,6 +202,51 @@ TEST_F(ViewerAccess, LogsWhatItRefusesWithoutTheToken) {
   EXPECT_EQ(lines[1].find(server_.access().token), std::string::npos);
 }
 
+TEST_F(ViewerAccess, AnswersAndLogsEachRefusal) {
+  const std::string port = std::to_string(server_.access().port), token = server_.access().token,
+                    host = "Host: 127.0.0.1:" + port + "\r\n", bearer = "Authorization: Bearer " + token + "\r\n";
+  const auto length = [](std::size_t n) { return "Content-Length: " + std::to_string(n) + "\r\n"; };
+  const struct {
+    std::string request;
+    int status;
+    std::string line;
+  } table[] = {
+      {"GET /api/prints HTTP/1.1\r\n" + host, 401, "GET /api/prints from 127.0.0.1: refused with 401"},
+      {"GET /api/prints HTTP/1.1\r\n" + host + "Authorization: Bearer 0123\r\n", 401,
+       "GET /api/prints from 127.0.0.1: refused with 401"},
+      {"GET /?token=" + std::string(32, '0') + " HTTP/1.1\r\n" + host, 401, "GET / from 127.0.0.1: refused with 401"},
+      {"GET / HTTP/1.1\r\nHost: evil.example:" + port + "\r\n" + bearer, 403, "GET / from 127.0.0.1: refused with 403"},
+      {"GET / HTTP/1.1\r\n" + host + bearer + "Origin: http://evil.example\r\n", 403,
+       "GET / from 127.0.0.1: refused with 403"},
+      {"GET /../../etc/passwd HTTP/1.1\r\n" + host + bearer, 404,
+       "GET /../../etc/passwd from 127.0.0.1: refused with 404"},
+      {"GET /%2e%2e/%2e%2e/etc/passwd HTTP/1.1\r\n" + host + bearer, 404,
+       "GET /../../etc/passwd from 127.0.0.1: refused with 404"},
+      {"GET /a%0ab%1b HTTP/1.1\r\n" + host + bearer, 404, "GET /a?b? from 127.0.0.1: refused with 404"},
+      {"DELETE /api/options HTTP/1.1\r\n" + host + bearer, 405, "DELETE /api/options from 127.0.0.1: refused with 405"},
+      {"POST /api/jobs HTTP/1.1\r\n" + host + bearer + length(3000), 413,
+       "POST /api/jobs from 127.0.0.1: refused with 413"},
+      {"POST /api/jobs HTTP/1.1\r\n" + host + bearer + length(3000) +
+           "Content-Type: multipart/form-data; boundary=x\r\n",
+       415, "POST /api/jobs from 127.0.0.1: refused with 415"},
+      {"GET\r\n", 400, "GET: refused with 400"},
+      {"NONSENSE / HTTP/1.1\r\n" + host, 400, "NONSENSE: refused with 400"},
+      {"GET / HTTP/1.1\r\n" + host + bearer + "Range: bytes=5-2\r\n", 416, "GET / from 127.0.0.1: refused with 416"},
+  };
+  std::size_t lines = 0;
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.request);
+    const bool body = row.request.starts_with("POST");
+    const std::string answer = raw(row.request + "\r\n" + (body ? std::string(3000, ' ') : ""), /*ends=*/true);
+    EXPECT_NE(answer.find("HTTP/1.1 " + std::to_string(row.status) + " "), answer.npos) << answer;
+    EXPECT_NE(answer.find(R"({"error":{"message":)"), answer.npos) << answer;
+    ++lines;
+    for (int i = 0; i < 1000 && log().size() < lines; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_EQ(log().size(), lines);
+    EXPECT_EQ(log().back(), row.line);
+  }
+}
+
 TEST_F(ViewerAccess, HeedsNoRanges) {
   const std::string options = client_.Get("/api/options")->body;
   post("/api/prints?name=small.gcode", small_gcode());
