@@ -32,6 +32,7 @@ const httplib::Headers safe_headers = {
     {"Referrer-Policy", "no-referrer"},
     {"Cross-Origin-Opener-Policy", "same-origin"},
     {"Cross-Origin-Resource-Policy", "same-origin"},
+    {"Accept-Ranges", "none"},
     {"Cache-Control", "no-store"}};
 
 Headers headers_of(const httplib::Request& request) {

@@ -252,6 +252,7 @@ TEST_F(ViewerAccess, HeedsNoRanges) {
   post("/api/prints?name=small.gcode", small_gcode());
   httplib::Client stranger("127.0.0.1", server_.access().port);
   const std::string refused = stranger.Get("/api/options")->body;
+  EXPECT_EQ(client_.Head("/api/prints/1/gcode")->get_header_value("Accept-Ranges"), "none");
   for (const char* range : {"bytes=0-0", "bytes=100-", "bytes=-5", "bytes=100000000-100000100", "bytes=0-99999999999",
                             "bytes=-99999999999", "bytes=0-0,100000000-100000100", "bytes=0-1,2-3,-1"}) {
     SCOPED_TRACE(range);
