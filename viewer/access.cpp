@@ -32,6 +32,21 @@ bool is_number_address(const std::string& name) {
   return inet_pton(AF_INET, name.c_str(), ignored.data()) == 1;
 }
 
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+}
+
+/// One way to write each address: "::0:1" is "::1", "FE80::1" is "fe80::1". Names in lower case.
+std::string written_plainly(std::string name) {
+  std::ranges::transform(name, name.begin(), lower);
+  if (name.starts_with('[') && name.ends_with(']')) name = name.substr(1, name.size() - 2);
+  in6_addr address;
+  std::array<char, INET6_ADDRSTRLEN> text;
+  if (inet_pton(AF_INET6, name.c_str(), &address) == 1 && inet_ntop(AF_INET6, &address, text.data(), text.size()))
+    return text.data();
+  return name;
+}
+
 std::string machine_name() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
@@ -88,8 +103,10 @@ bool Access::is_host(std::string_view host) const {
   else if (port != 80)
     return false;
   std::string name(host);
-  std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  if (name == bracketed(address) || name == "localhost") return true;
+  std::ranges::transform(name, name.begin(), lower);
+  const bool brackets = name.starts_with('['), needs_brackets = address.find(':') != address.npos;
+  if (brackets == needs_brackets && written_plainly(name) == written_plainly(address)) return true;
+  if (name == "localhost") return true;
   return is_every_address(address) && !name.empty() && (is_number_address(name) || name == machine_name());
 }
 

@@ -20,8 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_meshes = 256;
-
 Answer json_answer(const Json& json) {
   return {.body = std::make_shared<const std::string>(json.dump(-1, ' ', false, Json::error_handler_t::replace))};
 }
@@ -34,6 +32,13 @@ Answer method_not_allowed(const std::string& allow) {
 
 bool reads(const Asked& asked) {
   return asked.method == "GET" || asked.method == "HEAD";
+}
+
+/// For a print, or for that of a job.
+ApiError no_room() {
+  return {503, fmt::format("there is no room for another print ({} at most, with those of jobs to come); "
+                           "forget a print first",
+                           PrintStore::most_prints)};
 }
 
 ApiError nothing(std::string_view what, int id) {
@@ -65,7 +70,7 @@ Api::Api(ApiOptions options)
     : options_(std::move(options)),
       option_table_(std::make_shared<const std::string>(options_json())),
       profile_table_(std::make_shared<const std::string>(profiles_json(options_.printer))),
-      prints_(options_.threads),
+      prints_(options_.threads, options_.most_kept_bytes),
       jobs_(prints_) {}
 
 void Api::add_print(const std::filesystem::path& file) {
@@ -90,8 +95,12 @@ std::optional<BodyRule> Api::body_rule(const std::string& method, const std::str
   return std::nullopt;
 }
 
-FileHandle Api::new_upload(const Query& query) {
-  return folder_.new_file(file_name(text_of(query, "name")));
+FileHandle Api::new_upload(const Asked& asked) {
+  if (asked.path == "/api/prints") {
+    machine_of(asked.query);
+    if (!prints_.room()) throw no_room();
+  }
+  return folder_.new_file(file_name(text_of(asked.query, "name")));
 }
 
 Answer Api::answer(const Asked& asked) {
@@ -99,8 +108,6 @@ Answer Api::answer(const Asked& asked) {
     return routed(asked);
   } catch (const ApiError& e) {
     return refusal(e.status(), e.what(), e.field());
-  } catch (const Error& e) {
-    return refusal(500, e.what());
   } catch (const std::exception& e) {
     return refusal(500, e.what());
   }
@@ -175,7 +182,7 @@ Answer Api::prints(const Asked& asked) {
   if (asked.method != "POST") return method_not_allowed("GET, POST");
   const auto id = prints_.add(
       {.name = asked.upload->path().filename().string(), .file = asked.upload, .machine = machine_of(asked.query)});
-  if (!id) throw ApiError(503, fmt::format("there are {} prints already; forget one", PrintStore::most_prints));
+  if (!id) throw no_room();
   return json_answer({{"id", *id}});
 }
 
@@ -261,7 +268,10 @@ Answer Api::jobs(const Asked& asked) {
     return json_answer(rows);
   }
   if (asked.method != "POST") return method_not_allowed("GET, POST");
-  const auto id = jobs_.add(new_job(asked.body));
+  Job job = new_job(asked.body);
+  PrintStore::Room room = prints_.room();
+  if (!room) throw no_room();
+  const auto id = jobs_.add(std::move(job), std::move(room));
   if (!id) throw ApiError(503, fmt::format("{} jobs wait already; try again later", JobQueue::most_waiting));
   return json_answer({{"id", *id}});
 }

@@ -27,6 +27,7 @@ struct ApiOptions {
   std::uint64_t most_gcode_bytes = 1'000'000'000;
   std::uint64_t most_mesh_bytes = 256'000'000;
   std::uint64_t most_json_bytes = 1'000'000;
+  std::size_t most_kept_bytes = 4'000'000'000;  // of prints, ready to be sent
 };
 
 using Query = std::multimap<std::string, std::string>;
@@ -66,8 +67,8 @@ class Api {
   /// Nothing where no body is taken here; then answer() says why.
   std::optional<BodyRule> body_rule(const std::string& method, const std::string& path) const;
 
-  /// Where an upload of this query goes.
-  FileHandle new_upload(const Query& query);
+  /// Where an upload goes.  Throws ApiError where it would be refused anyway, before anybody sends it.
+  FileHandle new_upload(const Asked& asked);
 
   /// Files that the user named; they stay where they are. Throws Error where there are too many.
   void add_print(const std::filesystem::path& file);

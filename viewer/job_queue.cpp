@@ -9,17 +9,21 @@
 namespace cleancolor {
 
 struct JobQueue::Entry {
-  Job job;           // of the worker alone
-  JobStatus status;  // guarded by the queue's mutex
+  Job job;                // of the worker alone while it runs
+  PrintStore::Room room;  // guarded by the queue's mutex, as is the status
+  JobStatus status;
   std::atomic<bool> cancelled = false;
 };
 
 JobQueue::~JobQueue() {
   const std::lock_guard lock(mutex_);
-  for (const auto& [id, entry] : entries_) entry->cancelled = true;
+  for (const auto& [id, entry] : entries_) {
+    entry->cancelled = true;
+    if (entry->status.state == JobStatus::State::queued) drop(*entry, JobStatus::State::cancelled);
+  }
 }
 
-std::optional<int> JobQueue::add(Job job) {
+std::optional<int> JobQueue::add(Job job, PrintStore::Room room) {
   const std::lock_guard lock(mutex_);
   const auto waiting =
       std::ranges::count_if(entries_, [](const auto& e) { return e.second->status.state == JobStatus::State::queued; });
@@ -28,8 +32,10 @@ std::optional<int> JobQueue::add(Job job) {
   entry->status.id = ++last_id_;
   entry->status.name = job.name;
   entry->job = std::move(job);
+  entry->room = std::move(room);
   entries_[last_id_] = entry;
-  worker_.add([this, entry] { run(entry); });
+  if (!working_) worker_.add([this] { run(); });
+  working_ = true;
   return last_id_;
 }
 
@@ -66,30 +72,55 @@ bool JobQueue::remove(int id) {
     return true;
   }
   found->second->cancelled = true;
-  if (status.state == JobStatus::State::queued) status.state = JobStatus::State::cancelled;
+  if (status.state == JobStatus::State::queued) {
+    drop(*found->second, JobStatus::State::cancelled);
+    forget_oldest();
+  }
   return true;
 }
 
-void JobQueue::run(const EntryHandle& entry) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!entry->cancelled) entry->status.state = JobStatus::State::running;
-  }
-  std::string error;
-  auto state = JobStatus::State::failed;
-  try {
-    if (!entry->cancelled) slice_job(entry);
-    state = JobStatus::State::done;
-  } catch (const std::bad_alloc&) {
-    error = "out of memory";
-  } catch (const std::exception& e) {  // also what is wrong with the meshes: the page shows it
-    error = e.what();
-  }
-  end(entry, state, error);
-  entry->job = {};  // the meshes may go
+/// Its files and its room may go.
+void JobQueue::drop(Entry& entry, JobStatus::State state) {
+  entry.status.state = state;
+  entry.job = {};
+  entry.room.reset();
 }
 
-void JobQueue::slice_job(const EntryHandle& entry) {
+void JobQueue::forget_oldest() {
+  std::vector<int> ended;
+  for (const auto& [id, entry] : entries_)
+    if (entry->status.ended()) ended.push_back(id);
+  for (std::size_t i = 0; i + most_ended < ended.size(); ++i) entries_.erase(ended[i]);
+}
+
+/// nullptr where none waits.
+JobQueue::EntryHandle JobQueue::next() {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, entry] : entries_)
+    if (entry->status.state == JobStatus::State::queued) {
+      entry->status.state = JobStatus::State::running;
+      return entry;
+    }
+  working_ = false;
+  return nullptr;
+}
+
+void JobQueue::run() {
+  while (const EntryHandle entry = next()) {
+    std::optional<Summary> summary;
+    std::string error;
+    try {
+      summary = sliced(entry);
+    } catch (const std::bad_alloc&) {
+      error = "out of memory";
+    } catch (const std::exception& e) {  // also what is wrong with the meshes: the page shows it
+      error = e.what();
+    }
+    end(entry, summary, error);
+  }
+}
+
+Summary JobQueue::sliced(const EntryHandle& entry) {
   const Progress progress{.warn =
                               [&](const std::string& message) {
                                 const std::lock_guard lock(mutex_);
@@ -103,28 +134,30 @@ void JobQueue::slice_job(const EntryHandle& entry) {
                                 entry->status.progress = done;
                               },
                           .interrupted = [&] { return entry->cancelled.load(); }};
-  const Job& job = entry->job;
-  const Summary summary = slice(job.request, progress);
-  if (entry->cancelled) return;
-  const auto print = prints_.add({.name = job.name,
-                                  .file = job.output,
-                                  .machine = {.printer = job.request.config},
-                                  .azimuths = summary.protection.azimuths});
-  if (!print) throw Error("there are too many prints; forget one and slice again");
-  const std::lock_guard lock(mutex_);
-  entry->status.print = print;
-  entry->status.summary = summary;
-  entry->status.progress = 1;
+  return slice(entry->job.request, progress);
 }
 
-void JobQueue::end(const EntryHandle& entry, JobStatus::State state, const std::string& error) {
+/// Whether it is done or cancelled is settled here, once: a job that was cancelled leaves no print.
+void JobQueue::end(const EntryHandle& entry, const std::optional<Summary>& summary, const std::string& error) {
   const std::lock_guard lock(mutex_);
-  entry->status.state = entry->cancelled ? JobStatus::State::cancelled : state;
-  if (state == JobStatus::State::failed && !entry->cancelled) entry->status.error = error;
-  std::vector<int> ended;
-  for (const auto& [id, other] : entries_)
-    if (other->status.ended()) ended.push_back(id);
-  for (std::size_t i = 0; i + most_ended < ended.size(); ++i) entries_.erase(ended[i]);
+  auto state = JobStatus::State::failed;
+  if (entry->cancelled) {
+    state = JobStatus::State::cancelled;
+  } else if (summary) {
+    const Job& job = entry->job;
+    state = JobStatus::State::done;
+    entry->status.print = prints_.add({.name = job.name,
+                                       .file = job.output,
+                                       .machine = {.printer = job.request.config},
+                                       .azimuths = summary->protection.azimuths},
+                                      entry->room);
+    entry->status.summary = summary;
+    entry->status.progress = 1;
+  } else {
+    entry->status.error = error;
+  }
+  drop(*entry, state);
+  forget_oldest();
 }
 
 }  // namespace cleancolor

@@ -48,8 +48,8 @@ class JobQueue {
   explicit JobQueue(PrintStore& prints) : prints_(prints) {}
   ~JobQueue();
 
-  /// The id of the job; ids ascend from 1. Nothing where too many wait.
-  std::optional<int> add(Job job);
+  /// The id of the job; ids ascend from 1. Nothing where too many wait.  Requires: room for its print.
+  std::optional<int> add(Job job, PrintStore::Room room);
 
   /// By id.
   std::vector<JobStatus> list() const;
@@ -62,16 +62,20 @@ class JobQueue {
   struct Entry;
   using EntryHandle = std::shared_ptr<Entry>;
 
-  void run(const EntryHandle& entry);
-  void slice_job(const EntryHandle& entry);
-  void end(const EntryHandle& entry, JobStatus::State state, const std::string& error);
+  void run();
+  EntryHandle next();
+  Summary sliced(const EntryHandle& entry);
+  void end(const EntryHandle& entry, const std::optional<Summary>& summary, const std::string& error);
+  void drop(Entry& entry, JobStatus::State state);
+  void forget_oldest();
   JobStatus status(const Entry& entry) const;
 
   PrintStore& prints_;
   mutable std::mutex mutex_;
   std::map<int, EntryHandle> entries_;
   int last_id_ = 0;
-  Worker worker_;  // the last member: it uses all others
+  bool working_ = false;  // the worker looks for the next one by itself
+  Worker worker_;         // the last member: it uses all others
 };
 
 }  // namespace cleancolor

@@ -18,8 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_meshes = 64;
-
 ApiError wrong(const std::string& message, std::string field = "") {
   return {400, message, std::move(field)};
 }

@@ -12,6 +12,8 @@
 
 namespace cleancolor {
 
+constexpr std::size_t most_meshes = 256;  // that are kept, and so that a job can name
+
 struct JobMesh {
   int id = 0;
   std::optional<int> extruder;  // 0-based; empty: as the file says, else the next one

@@ -5,6 +5,7 @@
 
 #include "model/options.hpp"
 #include "model/profile.hpp"
+#include "model/settings.hpp"
 
 namespace cleancolor {
 namespace {
@@ -77,6 +78,17 @@ Json profile_json(const Profile& profile, bool chosen) {
   return json;
 }
 
+/// Like a profile, so that whoever asks for values finds those of protection likewise.
+Json protection_json(const std::string& word) {
+  const ProtectionLevel level = *protection_level(word);
+  Json settings = Json::object();
+  for (const std::string& assignment : level.set) {
+    const std::size_t equals = assignment.find('=');
+    settings[assignment.substr(0, equals)] = assignment.substr(equals + 1);
+  }
+  return {{"group", "protection"}, {"name", word}, {"turns", level.turns}, {"settings", settings}};
+}
+
 std::string text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -102,6 +114,7 @@ std::string profiles_json(const std::string& own_printer) {
     own.name = own_printer;  // by which jobs name it
     all.insert(all.begin(), profile_json(own, true));
   }
+  for (const char* word : {"none", "rampart", "full"}) all.push_back(protection_json(word));
   return text(all);
 }
 

@@ -62,15 +62,21 @@ PlaceArrays place_arrays(const GcodePrint& print, const AuditMachine& machine, c
   return arrays;
 }
 
-std::string places_file(const PlaceArrays& p, const Figures& total) {
+std::string places_file(const PlaceArrays& p, const Figures& total, const Scenario& scenario,
+                        const AuditMachine& machine) {
   nlohmann::ordered_json header = {{"worst", nlohmann::ordered_json::array()},
                                    {"worst_mm3", nlohmann::ordered_json::array()},
-                                   {"figures", nlohmann::ordered_json::object()}};
+                                   {"figures", nlohmann::ordered_json::object()},
+                                   {"ooze", nlohmann::ordered_json::array()}};
   for (const Defect& defect : p.worst) {
     header["worst"].push_back(defect.place);
     header["worst_mm3"].push_back(std::round(double(defect.mm3) * 1e4) / 1e4);
   }
   for (const FigureInfo& figure : figure_table()) header["figures"][std::string(figure.name)] = figure.of(total);
+  for (std::size_t n = 0; n < machine.nozzles.size(); ++n) {
+    const OozeParameters& ooze = scenario.ooze[std::min(n, scenario.ooze.size() - 1)];
+    header["ooze"].push_back({{"volume_mm3", ooze.volume_mm3}, {"time_s", ooze.time_s}});
+  }
   return array_file(
       std::array{named_array("visibility", p.visibility), named_array("layer_smear", p.layer_smear),
                  named_array("layer_hole", p.layer_hole), named_array("layer_zippers", p.layer_zippers),

@@ -27,7 +27,9 @@ struct PlaceArrays {
 PlaceArrays place_arrays(const GcodePrint& print, const AuditMachine& machine, const AuditResult& result,
                          int threads = 0);
 
-/// The arrays as one binary answer, with the figures of the whole print in its header.
-std::string places_file(const PlaceArrays& places, const Figures& total);
+/// The arrays as one binary answer; in its header the figures of the whole print, and what each nozzle
+/// oozes in the scenario that they are of.
+std::string places_file(const PlaceArrays& places, const Figures& total, const Scenario& scenario,
+                        const AuditMachine& machine);
 
 }  // namespace cleancolor

@@ -38,11 +38,26 @@ Bytes bytes(std::string text) {
 PrintStore::~PrintStore() {
   const std::lock_guard lock(mutex_);
   for (const auto& [id, entry] : entries_) entry->forgotten = true;
+  judged_.notify_all();
 }
 
-std::optional<int> PrintStore::add(PrintFile file) {
+bool PrintStore::full() const {
+  std::size_t kept = 0;
+  for (const auto& [id, entry] : entries_)
+    for (const Bytes& part :
+         {entry->status.summary, entry->status.moves, entry->status.audit, entry->status.audit_json})
+      kept += part ? part->size() : 0;
+  return kept >= most_bytes_ || entries_.size() + std::size_t(rooms_.use_count() - 1) >= most_prints;
+}
+
+PrintStore::Room PrintStore::room() {
   const std::lock_guard lock(mutex_);
-  if (entries_.size() >= most_prints) return std::nullopt;
+  return full() ? nullptr : rooms_;
+}
+
+std::optional<int> PrintStore::add(PrintFile file, const Room& room) {
+  const std::lock_guard lock(mutex_);
+  if (!room && full()) return std::nullopt;
   const auto entry = std::make_shared<Entry>();
   entry->status.id = ++last_id_;
   entry->status.name = file.name;
@@ -74,6 +89,7 @@ bool PrintStore::forget(int id) {
   if (found == entries_.end()) return false;
   found->second->forgotten = true;
   entries_.erase(found);
+  judged_.notify_all();
   return true;
 }
 
@@ -108,10 +124,17 @@ void PrintStore::guarded(const EntryHandle& entry, const std::function<void()>& 
   entry->status.error = error;
 }
 
+/// Waits until few enough are drawn and not audited. Returns whether the print is still wanted.
+bool PrintStore::may_draw(const EntryHandle& entry) {
+  std::unique_lock lock(mutex_);
+  judged_.wait(lock, [&] { return entry->forgotten || unjudged_ < most_unjudged; });
+  return !entry->forgotten;
+}
+
 void PrintStore::draw(const EntryHandle& entry) {
+  if (!may_draw(entry)) return;
   guarded(entry, [&] {
     const Progress progress = progress_of(entry);
-    if (progress.interrupted()) return;
     const auto drawn = std::make_shared<Drawn>();
     GcodePrint& print = drawn->print;
     print = read_gcode(gcode_text(entry->source.file->path()), entry->source.name, progress);
@@ -131,8 +154,14 @@ void PrintStore::draw(const EntryHandle& entry) {
       entry->status.summary = summary;
       entry->status.moves = file;
       entry->status.state = PrintStatus::State::drawn;
+      ++unjudged_;
     }
-    judging_.add([this, entry, drawn] { judge(entry, drawn); });
+    judging_.add([this, entry, drawn] {
+      judge(entry, drawn);
+      const std::lock_guard lock(mutex_);
+      --unjudged_;
+      judged_.notify_all();
+    });
   });
 }
 
@@ -144,7 +173,8 @@ void PrintStore::judge(const EntryHandle& entry, const std::shared_ptr<Drawn>& d
     const AuditResult result = audit(drawn->print, drawn->machine, options, progress);
     progress.advance("places", 0);
     const PlaceArrays places = place_arrays(drawn->print, drawn->machine, result, threads_);
-    const Bytes file = bytes(places_file(places, result.scenarios.front().total));
+    const Bytes file =
+        bytes(places_file(places, result.scenarios.front().total, options.scenarios.front(), drawn->machine));
     const AuditedFile audited{.name = entry->source.name,
                               .print = &drawn->print,
                               .machine = &drawn->machine,

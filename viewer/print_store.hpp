@@ -6,6 +6,7 @@
 // audited.
 #pragma once
 
+#include <condition_variable>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -49,13 +50,22 @@ struct PrintStatus {
 class PrintStore {
  public:
   static constexpr std::size_t most_prints = 64;
+  static constexpr int most_unjudged = 2;  // so many are drawn ahead of the audit, for each is there as a whole
 
-  /// threads: of each of both stages; 0: as many as the machine has.
-  explicit PrintStore(int threads = 0) : threads_(threads) {}
+  /// threads: of each of both stages; 0: as many as the machine has. most_bytes: once so much is kept, no further print
+  /// is taken.
+  explicit PrintStore(int threads = 0, std::size_t most_bytes = 4'000'000'000)
+      : threads_(threads), most_bytes_(most_bytes) {}
   ~PrintStore();
 
-  /// The id of the print; ids ascend from 1. Nothing where there are most_prints already.
-  std::optional<int> add(PrintFile file);
+  /// Held for a print that is still to come: until then no other takes its place.
+  using Room = std::shared_ptr<const int>;
+
+  /// nullptr where there is no more room: of prints and rooms there are most_prints, or of bytes most_bytes.
+  Room room();
+
+  /// The id of the print; ids ascend from 1. Nothing where there is no room; with one there is.
+  std::optional<int> add(PrintFile file, const Room& room = nullptr);
 
   /// By id.
   std::vector<PrintStatus> list() const;
@@ -69,13 +79,19 @@ class PrintStore {
   using EntryHandle = std::shared_ptr<Entry>;
   struct Drawn;
 
+  bool full() const;
+  bool may_draw(const EntryHandle& entry);
   void draw(const EntryHandle& entry);
   void judge(const EntryHandle& entry, const std::shared_ptr<Drawn>& drawn);
   void guarded(const EntryHandle& entry, const std::function<void()>& work);
   Progress progress_of(const EntryHandle& entry);
 
   int threads_;
+  std::size_t most_bytes_;
   mutable std::mutex mutex_;
+  std::condition_variable judged_;                    // or forgotten
+  const Room rooms_ = std::make_shared<const int>();  // each room is one more holder
+  int unjudged_ = 0;
   std::map<int, EntryHandle> entries_;
   int last_id_ = 0;
   Worker judging_;  // the last members, for they use all others; and drawing ends first, for it gives to judging

@@ -45,7 +45,7 @@ std::string bytes_script(std::size_t print, std::string_view what, const std::st
 }
 
 std::string print_scripts(std::size_t number, const AuditedFile& file, const Config* printer, int threads) {
-  const Timeline time = timeline(*file.print, *file.machine);
+  const Timeline& time = *file.result->time;
   const MoveArrays moves = move_arrays(*file.print, *file.machine, time, threads);
   const PlaceArrays places = place_arrays(*file.print, *file.machine, *file.result, threads);
   const ReadPrint read{.print = file.print,
@@ -55,7 +55,9 @@ std::string print_scripts(std::size_t number, const AuditedFile& file, const Con
                        .printer = printer,
                        .warnings = file.warnings};
   return json_script(number, print_summary(read)) + bytes_script(number, "moves", moves_file(moves)) +
-         bytes_script(number, "audit", places_file(places, file.result->scenarios.front().total));
+         bytes_script(
+             number, "audit",
+             places_file(places, file.result->scenarios.front().total, file.scenarios->front(), *file.machine));
 }
 
 /// "" where there is none.

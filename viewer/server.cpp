@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <mutex>
@@ -12,6 +13,8 @@
 
 #include "base/error.hpp"
 #include "base/printable.hpp"
+#include "viewer/api_error.hpp"
+#include "viewer/connection.hpp"
 #include "viewer/page.hpp"
 
 namespace cleancolor {
@@ -29,6 +32,7 @@ const httplib::Headers safe_headers = {
     {"Referrer-Policy", "no-referrer"},
     {"Cross-Origin-Opener-Policy", "same-origin"},
     {"Cross-Origin-Resource-Policy", "same-origin"},
+    {"Accept-Ranges", "none"},
     {"Cache-Control", "no-store"}};
 
 Headers headers_of(const httplib::Request& request) {
@@ -41,11 +45,13 @@ Headers headers_of(const httplib::Request& request) {
 /// In pieces, and without compression, which takes longer than the way to the browser.
 void send_bytes(httplib::Response& response, const std::string& type, std::string_view bytes, const Bytes& holder) {
   if (bytes.empty()) return response.set_content("", type);
-  response.set_content_provider(bytes.size(), type,
-                                [bytes, holder](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-                                  sink.write(bytes.data() + offset, std::min(length, bytes_per_piece));
-                                  return true;
-                                });
+  response.set_content_provider(
+      bytes.size(), type, [bytes, holder](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        if (offset >= bytes.size()) return false;
+        const std::string_view piece = bytes.substr(offset, std::min(length, bytes_per_piece));
+        sink.write(piece.data(), piece.size());
+        return true;
+      });
 }
 
 /// name="..." of a download: plain letters for old readers, all of them for new ones.
@@ -60,19 +66,20 @@ std::string disposition(const std::string& name) {
   return fmt::format("attachment; filename=\"{}\"; filename*=UTF-8''{}", plain, escaped);
 }
 
+void send(httplib::Response& response, const Answer& answer);
+
 void send_file(httplib::Response& response, const Answer& answer) {
   std::error_code fault;
   const auto size = std::filesystem::file_size(answer.file->path(), fault);
   const auto in = std::make_shared<std::ifstream>(answer.file->path(), std::ios::binary);
-  if (fault || !*in) {
-    response.status = 404;
-    return send_bytes(response, "application/json", *refusal(404, "the file is gone").body, nullptr);
-  }
+  if (fault || !*in) return send(response, refusal(404, "the file is gone"));
   response.set_header("Content-Disposition", disposition(answer.file_name));
   if (size == 0) return response.set_content("", answer.type);
   response.set_content_provider(
-      size, answer.type, [in, holder = answer.file](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        std::string piece(std::min(length, bytes_per_piece), '\0');
+      size, answer.type,
+      [in, size, holder = answer.file](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        if (offset >= size) return false;
+        std::string piece(std::min({length, std::size_t(size) - offset, bytes_per_piece}), '\0');
         in->seekg(std::streamoff(offset));
         if (!in->read(piece.data(), std::streamsize(piece.size()))) return false;
         sink.write(piece.data(), piece.size());
@@ -84,6 +91,7 @@ void send(httplib::Response& response, const Answer& answer) {
   if (answer.status != 200) response.status = answer.status;
   if (!answer.allow.empty()) response.set_header("Allow", answer.allow);
   if (answer.file) return send_file(response, answer);
+  if (answer.status != 200) return response.set_content(*answer.body, answer.type);
   if (answer.body) return send_bytes(response, answer.type, *answer.body, answer.body);
   response.headers.erase("Cache-Control");
   response.set_header("Cache-Control", "no-cache");
@@ -132,17 +140,41 @@ class Receiver {
   std::uint64_t received_ = 0;
 };
 
+/// The library's server, but with connections of which none lasts for ever.
+class HttpServer : public httplib::Server {
+ public:
+  explicit HttpServer(double patience_s) : patience_s_(patience_s) {}
+
+  /// Cuts off who is still being served.
+  void stop_soon() {
+    stopping_ = true;
+    stop();
+  }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    Connection connection(socket, patience_s_, stopping_);
+    bool closed = false;
+    const bool done = process_request(connection, /*close_connection=*/true, closed, nullptr);
+    connection.close();
+    return done;
+  }
+
+  double patience_s_;
+  std::atomic<bool> stopping_ = false;
+};
+
 }  // namespace
 
 struct Server::Http {
-  Http(Api& api_, const Access& access_, std::function<void(const std::string&)> refused_)
-      : api(api_), access(access_), refused(std::move(refused_)) {}
+  Http(Api& api_, const Access& access_, const ServerOptions& options)
+      : api(api_), access(access_), refused(options.refused), server(options.patience_s) {}
 
   Api& api;
   const Access& access;
   std::function<void(const std::string&)> refused;
   std::mutex log_mutex;
-  httplib::Server server;
+  HttpServer server;
   std::thread listening;
 
   void prepare();
@@ -155,10 +187,7 @@ struct Server::Http {
 };
 
 void Server::Http::prepare() {
-  server.set_keep_alive_max_count(1);
   server.set_tcp_nodelay(true);
-  server.set_read_timeout(10);
-  server.set_write_timeout(10);
   server.set_default_headers(safe_headers);
   // The library would share the port with another server that has it already.
   server.set_socket_options([](socket_t socket) {
@@ -217,6 +246,8 @@ bool Server::Http::refuses(const httplib::Request& request, httplib::Response& r
 
 httplib::Server::HandlerResponse Server::Http::before(const httplib::Request& request, httplib::Response& response) {
   using enum httplib::Server::HandlerResponse;
+  // The library checks no range against what there is: none is heeded, so everybody gets the whole.
+  const_cast<httplib::Request&>(request).ranges.clear();
   if (refuses(request, response)) return Handled;
   if (api.body_rule(request.method, request.path)) return Unhandled;  // receive() goes on with it
   send(response, api.answer(asked_of(request)));
@@ -231,12 +262,14 @@ void Server::Http::receive(const httplib::Request& request, httplib::Response& r
     return send(response, refusal(415, "the body is the file itself, not a form with it"));
   Asked asked = asked_of(request);
   try {
-    Receiver receiver(*rule, rule->upload ? api.new_upload(asked.query) : nullptr);
+    Receiver receiver(*rule, rule->upload ? api.new_upload(asked) : nullptr);
     const bool whole = read([&](const char* bytes, std::size_t count) { return receiver.take(bytes, count); });
     if (receiver.too_large())
       return send(response, refusal(413, fmt::format("too large: at most {} bytes are taken", rule->most_bytes)));
     if (!whole) return send(response, refusal(response.status >= 400 ? response.status : 400, "the body is cut short"));
     receiver.finish(asked);
+  } catch (const ApiError& e) {
+    return send(response, refusal(e.status(), e.what(), e.field()));
   } catch (const Error& e) {
     return send(response, refusal(500, e.what()));
   }
@@ -245,20 +278,23 @@ void Server::Http::receive(const httplib::Request& request, httplib::Response& r
 
 void Server::Http::log(const httplib::Request& request, const httplib::Response& response) {
   if (response.status < 400) return;
+  // Of what is no HTTP the library may know neither the path nor who sent it.
+  std::string what = request.method.empty() ? "a request" : printable(request.method);
+  if (!request.path.empty()) what += " " + printable(request.path);
+  if (!request.remote_addr.empty()) what += " from " + request.remote_addr;
   const std::lock_guard lock(log_mutex);
-  refused(fmt::format("{} {} from {}: refused with {}", printable(request.method), printable(request.path),
-                      request.remote_addr, response.status));
+  refused(fmt::format("{}: refused with {}", what, response.status));
 }
 
 Server::Server(Api& api, const ServerOptions& options)
     : access_{.token = random_token(), .address = options.address},
-      http_(std::make_unique<Http>(api, access_, options.refused)) {
+      http_(std::make_unique<Http>(api, access_, options)) {
   http_->prepare();
   http_->listen(options, access_);
 }
 
 Server::~Server() {
-  http_->server.stop();
+  http_->server.stop_soon();
   http_->listening.join();
 }
 

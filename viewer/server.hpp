@@ -22,6 +22,7 @@ struct ServerOptions {
 
   std::string address = "127.0.0.1";
   std::optional<int> port = {};  // empty: the usual one, or any where that is taken; 0: any
+  double patience_s = 10;        // with a client that sends or takes nothing: viewer/connection.hpp
   std::function<void(const std::string&)> refused = [](const std::string&) {};  // a line for each; one at a time
 };
 
@@ -29,7 +30,7 @@ class Server {
  public:
   /// Listens when it is made.  Throws SystemError where it cannot.  The API must outlive it.
   Server(Api& api, const ServerOptions& options);
-  /// Ends what runs: at most a few seconds.
+  /// Ends what runs, whatever the clients do: within a second.
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

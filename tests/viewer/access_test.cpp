@@ -60,6 +60,11 @@ TEST(Access, ServesItsOwnNamesOnly) {
                            "192.168.0.1:8737", "localhost:87370"})
     EXPECT_FALSE(local.is_host(host)) << host;
   EXPECT_TRUE(access_at("::1").is_host("[::1]:8737"));
+  EXPECT_TRUE(access_at("0:0::1").is_host("[::1]:8737"));
+  EXPECT_TRUE(access_at("FE80::00A").is_host("[fe80::a]:8737"));
+  EXPECT_TRUE(access_at("My.House").is_host("my.house:8737"));
+  EXPECT_FALSE(access_at("::1").is_host("::1:8737"));
+  EXPECT_FALSE(access_at("127.0.0.1").is_host("[127.0.0.1]:8737"));
   const Access all = access_at("0.0.0.0");
   EXPECT_TRUE(all.is_host("192.168.0.1:8737"));
   EXPECT_TRUE(all.is_host("[fe80::1]:8737"));

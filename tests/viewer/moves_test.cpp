@@ -153,12 +153,16 @@ TEST(Places, AreThoseOfTheAudit) {
   const GcodePrint print = d.print();
   const AuditResult result = audit(print, d.machine(), only_worst());
   const ScenarioResult& worst = result.scenarios.front();
-  const ArrayReader read(places_file(place_arrays(print, d.machine(), result), worst.total));
+  Scenario scenario = scenarios().front();
+  scenario.ooze = {{.volume_mm3 = 1.5, .time_s = 30}};
+  const ArrayReader read(places_file(place_arrays(print, d.machine(), result), worst.total, scenario, d.machine()));
   ASSERT_FALSE(worst.places.empty());
   EXPECT_EQ(read.array<float>("place_mm3").size(), worst.places.size());
   EXPECT_EQ(read.array<std::uint8_t>("visibility").size(), print.moves.size());
   EXPECT_EQ(read.array<float>("layer_smear"), (std::vector<float>{float(worst.total.smear_volume())}));
   EXPECT_EQ(read.header().at("figures").at("smear_volume"), worst.total.smear_volume());
+  const nlohmann::json ooze = {{"volume_mm3", 1.5}, {"time_s", 30}};
+  EXPECT_EQ(read.header().at("ooze"), nlohmann::json({ooze, ooze}));
   EXPECT_EQ(read.header().at("worst").size(), worst_places(worst, ~std::size_t(0)).size());
   const auto from = read.array<float>("place_from", 3);
   const auto layer = read.array<std::uint32_t>("place_layer"), move = read.array<std::uint32_t>("place_move");

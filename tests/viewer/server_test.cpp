@@ -7,7 +7,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -200,12 +202,142 @@ TEST_F(ViewerAccess, LogsWhatItRefusesWithoutTheToken) {
   EXPECT_EQ(lines[1].find(server_.access().token), std::string::npos);
 }
 
+TEST_F(ViewerAccess, AnswersAndLogsEachRefusal) {
+  const std::string port = std::to_string(server_.access().port), token = server_.access().token,
+                    host = "Host: 127.0.0.1:" + port + "\r\n", bearer = "Authorization: Bearer " + token + "\r\n";
+  const auto length = [](std::size_t n) { return "Content-Length: " + std::to_string(n) + "\r\n"; };
+  const struct {
+    std::string request;
+    int status;
+    std::string line;
+  } table[] = {
+      {"GET /api/prints HTTP/1.1\r\n" + host, 401, "GET /api/prints from 127.0.0.1: refused with 401"},
+      {"GET /api/prints HTTP/1.1\r\n" + host + "Authorization: Bearer 0123\r\n", 401,
+       "GET /api/prints from 127.0.0.1: refused with 401"},
+      {"GET /?token=" + std::string(32, '0') + " HTTP/1.1\r\n" + host, 401, "GET / from 127.0.0.1: refused with 401"},
+      {"GET / HTTP/1.1\r\nHost: evil.example:" + port + "\r\n" + bearer, 403, "GET / from 127.0.0.1: refused with 403"},
+      {"GET / HTTP/1.1\r\n" + host + bearer + "Origin: http://evil.example\r\n", 403,
+       "GET / from 127.0.0.1: refused with 403"},
+      {"GET /../../etc/passwd HTTP/1.1\r\n" + host + bearer, 404,
+       "GET /../../etc/passwd from 127.0.0.1: refused with 404"},
+      {"GET /%2e%2e/%2e%2e/etc/passwd HTTP/1.1\r\n" + host + bearer, 404,
+       "GET /../../etc/passwd from 127.0.0.1: refused with 404"},
+      {"GET /a%0ab%1b HTTP/1.1\r\n" + host + bearer, 404, "GET /a?b? from 127.0.0.1: refused with 404"},
+      {"DELETE /api/options HTTP/1.1\r\n" + host + bearer, 405, "DELETE /api/options from 127.0.0.1: refused with 405"},
+      {"POST /api/jobs HTTP/1.1\r\n" + host + bearer + length(3000), 413,
+       "POST /api/jobs from 127.0.0.1: refused with 413"},
+      {"POST /api/jobs HTTP/1.1\r\n" + host + bearer + length(3000) +
+           "Content-Type: multipart/form-data; boundary=x\r\n",
+       415, "POST /api/jobs from 127.0.0.1: refused with 415"},
+      {"GET\r\n", 400, "GET: refused with 400"},
+      {"NONSENSE / HTTP/1.1\r\n" + host, 400, "NONSENSE: refused with 400"},
+      {"GET / HTTP/1.1\r\n" + host + bearer + "Range: bytes=5-2\r\n", 416, "GET / from 127.0.0.1: refused with 416"},
+  };
+  std::size_t lines = 0;
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.request);
+    const bool body = row.request.starts_with("POST");
+    const std::string answer = raw(row.request + "\r\n" + (body ? std::string(3000, ' ') : ""), /*ends=*/true);
+    EXPECT_NE(answer.find("HTTP/1.1 " + std::to_string(row.status) + " "), answer.npos) << answer;
+    EXPECT_NE(answer.find(R"({"error":{"message":)"), answer.npos) << answer;
+    ++lines;
+    for (int i = 0; i < 1000 && log().size() < lines; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_EQ(log().size(), lines);
+    EXPECT_EQ(log().back(), row.line);
+  }
+}
+
+TEST_F(ViewerAccess, HeedsNoRanges) {
+  const std::string options = client_.Get("/api/options")->body;
+  post("/api/prints?name=small.gcode", small_gcode());
+  httplib::Client stranger("127.0.0.1", server_.access().port);
+  const std::string refused = stranger.Get("/api/options")->body;
+  EXPECT_EQ(client_.Head("/api/prints/1/gcode")->get_header_value("Accept-Ranges"), "none");
+  for (const char* range : {"bytes=0-0", "bytes=100-", "bytes=-5", "bytes=100000000-100000100", "bytes=0-99999999999",
+                            "bytes=-99999999999", "bytes=0-0,100000000-100000100", "bytes=0-1,2-3,-1"}) {
+    SCOPED_TRACE(range);
+    const httplib::Headers own = {{"Range", range}, {"Authorization", "Bearer " + server_.access().token}};
+    const auto table = client_.Get("/api/options", own);
+    EXPECT_EQ(table->status, 200);
+    EXPECT_EQ(table->body, options);
+    const auto file = client_.Get("/api/prints/1/gcode", own);
+    EXPECT_EQ(file->status, 200);
+    EXPECT_EQ(file->body, small_gcode());
+    const auto nobody = stranger.Get("/api/options", {{"Range", range}});
+    EXPECT_EQ(nobody->status, 401);
+    EXPECT_EQ(nobody->body, refused);
+  }
+}
+
 TEST(ViewerPort, IsAnotherOneWhereTheUsualOneIsTaken) {
   Api api({});
   const Server first(api, {.port = 0});
   const int port = first.access().port;
   EXPECT_ERROR(Server(api, {.port = port}), "is it taken?");
   EXPECT_ERROR(Server(api, {.address = "203.0.113.1", .port = 0}), "cannot listen");
+}
+
+/// A client that does as little as it can.
+class SlowClient {
+ public:
+  SlowClient(const Server& server, const std::string& first) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    const int small = 4096;
+    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(std::uint16_t(server.access().port));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+    EXPECT_TRUE(say(first));
+  }
+  ~SlowClient() { ::close(socket_); }
+  SlowClient(const SlowClient&) = delete;
+  SlowClient& operator=(const SlowClient&) = delete;
+
+  bool say(const std::string& bytes) const {
+    return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == ssize_t(bytes.size());
+  }
+
+ private:
+  int socket_;
+};
+
+std::string head(const Server& server, const std::string& request) {
+  return request + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server.access().port) +
+         "\r\nAuthorization: Bearer " + server.access().token + "\r\n";
+}
+
+TEST(ViewerClients, KeepNoServerFromStopping) {
+  const TempFolder folder;
+  const std::filesystem::path large = folder.path() / "large.gcode";
+  std::ofstream(large) << std::string(30'000'000, ';');
+  Api api({});
+  api.add_print(large);
+  auto server = std::make_unique<Server>(api, ServerOptions{.port = 0});
+  const SlowClient silent(*server, ""), half_a_head(*server, "GET /api/pri"),
+      half_a_body(*server, head(*server, "POST /api/jobs") + "Content-Length: 1000\r\n\r\n{"),
+      takes_nothing(*server, head(*server, "GET /api/prints/1/gcode") + "\r\n");
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const auto since = std::chrono::steady_clock::now();
+  server.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - since, std::chrono::seconds(3));
+}
+
+TEST(ViewerClients, AreCutOffWhereTheyTrickle) {
+  Api api({});
+  const Server server(api, {.port = 0, .patience_s = 0.5});
+  const SlowClient in_the_head(server, head(server, "GET /api/prints") + "X: "),
+      in_the_body(server, head(server, "POST /api/jobs") + "Content-Length: 100000\r\n\r\n");
+  const auto since = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - since < std::chrono::seconds(2)) {
+    (void)in_the_head.say("x");
+    (void)in_the_body.say(" ");
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  httplib::Client other("127.0.0.1", server.access().port);
+  EXPECT_EQ(other.Get("/api/prints")->status, 401);
+  EXPECT_FALSE(in_the_head.say("x") && in_the_head.say("x"));
+  EXPECT_FALSE(in_the_body.say(" ") && in_the_body.say(" "));
 }
 
 using ViewerPrints = Served;
@@ -241,6 +373,14 @@ TEST_F(ViewerPrints, AreDrawnThenAudited) {
   EXPECT_EQ(get("/api/prints"), json::array());
 }
 
+TEST_F(ViewerPrints, SayWhereTheFileIsGone) {
+  post("/api/prints?name=small.gcode", small_gcode());
+  until("/api/prints/1", {"audited"});
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(api_.temporary()))
+    if (entry.is_regular_file()) std::filesystem::remove(entry.path());
+  EXPECT_EQ(get("/api/prints/1/gcode", 404).at("error").at("message"), "the file is gone");
+}
+
 TEST_F(ViewerPrints, SayWhyTheyFail) {
   post("/api/prints?name=bad.gcode", "G1 X1 Y\xff\n");
   const json bad = until("/api/prints/1", {"failed"});
@@ -256,6 +396,44 @@ TEST_F(ViewerPrints, TakeTheNozzlesFromTheQuery) {
   EXPECT_EQ(print.at("summary").at("idle_nozzle"), "lifted");
   EXPECT_EQ(post("/api/prints?nozzle_offset=far", "G1", 400).at("error").at("field"), "nozzle_offset");
   EXPECT_EQ(post("/api/prints?printer=/etc/passwd", "G1", 400).at("error").at("field"), "printer");
+}
+
+TEST_F(ViewerPrints, CheckTheQueryBeforeTheUpload) {
+  const std::string answer =
+      raw(head(server_, "POST /api/prints?nozzle_offset=far") + "Content-Length: 90000\r\n\r\nG1");
+  EXPECT_NE(answer.find(" 400 "), answer.npos) << answer;
+  EXPECT_NE(answer.find("nozzle_offset"), answer.npos) << answer;
+}
+
+TEST(ViewerStore, TakesNoFurtherPrintWhereMuchIsKept) {
+  Api api({.threads = 2, .most_kept_bytes = 1000});
+  const TempFolder folder;
+  std::ofstream(folder.path() / "a.gcode") << small_gcode();
+  api.add_print(folder.path() / "a.gcode");
+  const auto state = [&] {
+    return json::parse(*api.answer({.method = "GET", .path = "/api/prints/1"}).body).at("state").get<std::string>();
+  };
+  for (int i = 0; i < 6000 && state() != "audited"; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_ERROR(api.new_upload({.method = "POST", .path = "/api/prints"}), "forget a print first");
+  EXPECT_EQ(api.answer({.method = "DELETE", .path = "/api/prints/1"}).status, 200);
+  EXPECT_TRUE(api.new_upload({.method = "POST", .path = "/api/prints"}));
+}
+
+TEST(ViewerStore, JudgesAllThatWereAddedAtOnce) {
+  Api api({.threads = 2});
+  const TempFolder folder;
+  std::ofstream(folder.path() / "a.gcode") << small_gcode();
+  constexpr int count = 20;
+  for (int i = 0; i < count; ++i) api.add_print(folder.path() / "a.gcode");
+  EXPECT_EQ(api.answer({.method = "DELETE", .path = "/api/prints/7"}).status, 200);
+  const auto audited = [&] {
+    const json all = json::parse(*api.answer({.method = "GET", .path = "/api/prints"}).body);
+    const auto drawn = std::ranges::count_if(all, [](const json& p) { return p.at("state") == "drawn"; });
+    EXPECT_LE(drawn, PrintStore::most_unjudged);
+    return std::ranges::count_if(all, [](const json& p) { return p.at("state") == "audited"; });
+  };
+  for (int i = 0; i < 12000 && audited() < count - 1; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(audited(), count - 1);
 }
 
 TEST_F(ViewerPrints, RefuseWhatIsTooLarge) {
@@ -348,6 +526,59 @@ TEST_F(ViewerJobs, AreRefusedWhereTooManyWait) {
   until("/api/jobs/1", {"running"});
   for (std::size_t i = 0; i < JobQueue::most_waiting; ++i) post("/api/jobs", slow);
   post("/api/jobs", slow, 503);
+}
+
+TEST_F(ViewerJobs, AreRefusedWhereTheirPrintWouldFindNoRoom) {
+  const int mesh = model("two-color-world-50mm_ocean.stl");
+  const std::string slow = job(mesh, R"({"layer_height": "0.05", "first_layer_height": "0.05"})");
+  for (std::size_t i = 0; i < PrintStore::most_prints; ++i) post("/api/prints", "G1 X1 Y\xff\n");
+  EXPECT_NE(post("/api/jobs", slow, 503).at("error").at("message").get<std::string>().find("forget a print first"),
+            std::string::npos);
+  remove("/api/prints/1");
+  post("/api/jobs", slow);
+  post("/api/jobs", slow, 503);
+  post("/api/prints", "G1", 503);  // the place is the job's
+  remove("/api/jobs/1");
+  until("/api/jobs/1", {"cancelled"});
+  post("/api/prints", "G1");
+}
+
+TEST_F(ViewerJobs, LeaveNothingWhereTheyAreCancelledAgainAndAgain) {
+  const int mesh = model("two-color-world-50mm_ocean.stl");
+  const std::string slow = job(mesh, R"({"layer_height": "0.05", "first_layer_height": "0.05"})");
+  post("/api/jobs", slow);
+  until("/api/jobs/1", {"running"});
+  for (int i = 0; i < 200; ++i) remove("/api/jobs/" + post("/api/jobs", slow).at("id").dump());
+  EXPECT_EQ(get("/api/jobs").size(), 1 + JobQueue::most_ended);
+  const std::filesystem::directory_iterator folders(api_.temporary());
+  EXPECT_LE(std::distance(begin(folders), end(folders)), 2);  // of the mesh, and of the job that runs
+}
+
+TEST_F(ViewerJobs, AreDoneOrCancelledButNeverBoth) {
+  const int mesh = model("4-cones_white.stl");
+  for (int i = 0; i < 12; ++i) {
+    SCOPED_TRACE(i);
+    const std::string path = "/api/jobs/" + post("/api/jobs", job(mesh, R"({"layer_height": "0.3"})")).at("id").dump();
+    std::this_thread::sleep_for(std::chrono::milliseconds(40 * i));
+    const std::size_t before = get("/api/prints").size();
+    remove(path);
+    const auto left = client_.Get(path.c_str());
+    if (left->status == 404) continue;  // it was done, and has been forgotten
+    EXPECT_EQ(until(path, {"done", "failed", "cancelled"}).at("state"), "cancelled");
+    EXPECT_EQ(get("/api/prints").size(), before);
+  }
+}
+
+TEST_F(ViewerJobs, FindWhatProtectionStandsFor) {
+  json levels = json::object();
+  for (const json& profile : get("/api/profiles"))
+    if (profile.at("group") == "protection") levels[profile.at("name").get<std::string>()] = profile;
+  EXPECT_EQ(levels.size(), 3u);
+  EXPECT_EQ(levels.at("none").at("settings"), json({{"planner", "plain"}, {"rampart", "off"}}));
+  EXPECT_EQ(levels.at("none").at("turns"), false);
+  EXPECT_EQ(levels.at("rampart").at("settings"), json({{"planner", "plain"}}));
+  EXPECT_EQ(levels.at("full").at("settings"), json::object());
+  EXPECT_EQ(levels.at("full").at("turns"), true);
 }
 
 TEST_F(ViewerJobs, SayWhichFieldIsAtFault) {
