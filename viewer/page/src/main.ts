@@ -9,7 +9,7 @@ import { slicing } from "./ui/slicing.ts";
 import { viewer_layout } from "./ui/viewer_layout.ts";
 
 let prints: PrintState[] = [];
-let shown: number[] = [];
+let shown: number[] = []; // ids of the prints shown, or about to be
 
 const open = opener((gcode, meshes, unknown) => void take(gcode, meshes, unknown));
 const slice_panel = slicing(open.pick, (id) => job_list.watch(id));
@@ -41,12 +41,22 @@ function fill_prints(): void {
 
 function fail(e: unknown): void { say(e instanceof Refusal || e instanceof Error ? e.message : String(e)); }
 
+viewer.on((what) => { if (what === "prints") look_again(); });
+/** Sets what the page says is shown to what the viewer shows: of the prints asked for, some may be unreadable. */
+function look_again(): void {
+  shown = viewer.sides.map((s) => (s.source as ServerSource).id);
+  fill_prints();
+}
+
 async function show(ids: number[]): Promise<void> {
   shown = ids.filter((id, i) => prints.some((p) => p.id === id) && ids.indexOf(id) === i);
   fill_prints();
   try {
     await viewer.open(shown.map((id) => ({ name: prints.find((p) => p.id === id)!.name, source: new ServerSource(id) })), say);
-  } catch (e) { fail(e); }
+  } catch (e) {
+    fail(e);
+    look_again();
+  }
 }
 
 async function show_print(id: number): Promise<void> {
@@ -73,10 +83,8 @@ async function take(gcode: File[], meshes: File[], unknown: File[]): Promise<voi
 try {
   prints = await api.prints();
   job_list.watch();
-  const good = prints.filter((p) => p.state !== "failed");
+  const good = prints.filter((p) => p.state !== "failed"), bad = prints.filter((p) => p.state === "failed");
   fill_prints();
-  const bad = prints.find((p) => p.state === "failed");
-  if (good.length) await show(good.slice(0, 2).map((p) => p.id));
-  else if (bad) fail(new Error(`${bad.name} cannot be read`));
+  if (prints.length) await show([...good.slice(0, 2), ...bad].map((p) => p.id)); // the bad ones, to hear why
   else if ((await api.meshes()).length) side.show("slice");
 } catch (e) { fail(e); }

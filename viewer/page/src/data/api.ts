@@ -67,7 +67,7 @@ export const api = {
 export const pause = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
 export class ServerSource implements Source {
-  constructor(private readonly id: number) {}
+  constructor(readonly id: number) {}
 
   async drawn(said: (stage: string, progress: number) => void): Promise<{ summary: Summary; moves: Moves }> {
     const state = await this.until((s) => s.summary !== undefined, said);
