@@ -17,4 +17,39 @@ export async function troubled(chrome, address) {
     assert.deepEqual(page.troubles, []);
     await page.context().close();
   });
+
+  await test("a print that fails only in the audit is shown without it", async () => {
+    const failed = { state: "failed", error: "out of memory" };
+    const page = await open_page(chrome, address, {}, async (page) => {
+      await page.route("**/api/prints", async (route) => {
+        const rows = await (await route.fetch()).json();
+        await route.fulfill({ json: rows.map((row) => ({ ...row, ...failed })) });
+      });
+      await page.route("**/api/prints/1", async (route) => {
+        const print = await (await route.fetch()).json();
+        await route.fulfill({ json: print.summary ? { ...print, ...failed } : print });
+      });
+    });
+    await page.waitForFunction(() => window.cleancolor?.viewer.first?.trouble);
+    assert.deepEqual(await names(page), ["blocks.gcode"]);
+    assert.match(await status(page), /blocks\.gcode: out of memory/);
+    assert.match(await page.locator("#pane-defects .note").textContent(), /out of memory/);
+    assert.deepEqual(await page.locator("#print option").allTextContents(), ["blocks.gcode"]);
+    await page.context().close();
+  });
+
+  await test("what is wrong with a print is not told when another is open by then", async () => {
+    const page = await open_page(chrome, address);
+    await audited(page);
+    const said = await page.evaluate(async () => {
+      const { viewer } = window.cleancolor, said = [], { source } = viewer.first;
+      const late = { drawn: () => new Promise((_, refuse) => setTimeout(() => refuse(new Error("too late")), 200)) };
+      const first = viewer.open([{ name: "late", source: late }], (text) => said.push(text)).catch((e) => said.push(e.message));
+      await Promise.all([first, viewer.open([{ name: "next", source }], () => undefined)]);
+      return said;
+    });
+    assert.deepEqual(said, []);
+    assert.deepEqual(await names(page), ["next"]);
+    await page.context().close();
+  });
 }

@@ -1,6 +1,6 @@
 // The page of `cleancolor view`: prints of the server, files opened here, slicing.
 import "./style.css";
-import { api, Refusal, ServerSource, type PrintState } from "./data/api.ts";
+import { api, can_be_shown, ServerSource, type PrintState } from "./data/api.ts";
 import { set_test_hooks } from "./test_hooks.ts";
 import { el, option } from "./ui/dom.ts";
 import { jobs } from "./ui/jobs.ts";
@@ -29,7 +29,7 @@ document.getElementById("page")!.append(
   main, help, open.input, open.curtain);
 
 function fill_prints(): void {
-  const here = prints.filter((p) => p.state !== "failed");
+  const here = prints.filter(can_be_shown);
   first.replaceChildren(...here.map((p) => option(String(p.id), p.name, p.id === shown[0])));
   second.replaceChildren(option("", "compare with…", shown.length < 2), ...here.filter((p) => p.id !== shown[0]).map((p) => option(String(p.id), p.name, p.id === shown[1])));
   first.hidden = here.length === 0;
@@ -39,7 +39,7 @@ function fill_prints(): void {
   welcome.hidden = shown.length > 0;
 }
 
-function fail(e: unknown): void { say(e instanceof Refusal || e instanceof Error ? e.message : String(e)); }
+function fail(e: unknown): void { say(e instanceof Error ? e.message : String(e)); }
 
 viewer.on((what) => { if (what === "prints") look_again(); });
 /** Sets what the page says is shown to what the viewer shows: of the prints asked for, some may be unreadable. */
@@ -83,7 +83,7 @@ async function take(gcode: File[], meshes: File[], unknown: File[]): Promise<voi
 try {
   prints = await api.prints();
   job_list.watch();
-  const good = prints.filter((p) => p.state !== "failed"), bad = prints.filter((p) => p.state === "failed");
+  const good = prints.filter(can_be_shown), bad = prints.filter((p) => !can_be_shown(p));
   fill_prints();
   if (prints.length) await show([...good.slice(0, 2), ...bad].map((p) => p.id)); // the bad ones, to hear why
   else if ((await api.meshes()).length) side.show("slice");
