@@ -59,6 +59,13 @@ export async function slicing(chrome, address) {
     await page.waitForSelector('#jobs li[data-job="1"]');
     await page.click("#slice");
     await page.waitForSelector('#jobs li[data-job="2"]');
+    const cancel = page.locator('#jobs li[data-job="1"] button', { hasText: "Cancel" });
+    await cancel.focus();
+    await page.evaluate(() => { window.row_of_1 = document.querySelector('#jobs li[data-job="1"]'); });
+    await job(1, "running");
+    await page.waitForTimeout(1000); // the queue is asked for several times
+    assert.ok(await cancel.evaluate((b) => b === document.activeElement && window.row_of_1.contains(b)), "the focus stays on Cancel while the job goes on");
+    assert.equal(await page.locator('#jobs li[data-job="1"] [aria-live]').textContent(), "running");
     await page.locator('#jobs li[data-job="2"] button', { hasText: "Cancel" }).click();
     await page.locator('#jobs li[data-job="1"] button', { hasText: "Cancel" }).click();
     await job(2, "cancelled");
