@@ -92,5 +92,14 @@ export async function slicing(chrome, address) {
     // The 400 of values out of range are the only complaints there are.
     assert.deepEqual(page.troubles.filter((t) => !/status of 400/.test(t)), []);
   });
+
+  await test("with a print forgotten goes the job that made it; another job's row can be forgotten by itself", async () => {
+    page.on("dialog", (d) => void d.accept());
+    await page.click("#forget");
+    await page.waitForFunction(() => !document.querySelector('#jobs li[data-job="3"]'));
+    await page.locator('#jobs li[data-job="2"] button', { hasText: "Forget" }).click();
+    await page.waitForFunction(() => !document.querySelector('#jobs li[data-job="2"]'));
+    assert.ok(await page.evaluate(() => document.querySelector('#jobs li[data-job="1"]').contains(document.activeElement)), "the focus goes on to the row beside");
+  });
   await page.context().close();
 }

@@ -1,6 +1,7 @@
 // One print that cannot be read, or not audited, leaves the page with the others, and the page says why.
 import assert from "node:assert/strict";
-import { audited, open_page, test } from "./harness.mjs";
+import path from "node:path";
+import { audited, open_page, out, test } from "./harness.mjs";
 
 const names = (page) => page.evaluate(() => window.cleancolor.viewer.sides.map((s) => s.name));
 const status = (page) => page.locator(".status").textContent();
@@ -50,6 +51,28 @@ export async function troubled(chrome, address) {
     });
     assert.deepEqual(said, []);
     assert.deepEqual(await names(page), ["next"]);
+    await page.context().close();
+  });
+
+  await test("a print forgotten is gone from the program, and the next is shown, or how to open one", async () => {
+    const page = await open_page(chrome, address);
+    await audited(page);
+    await page.setInputFiles("#file", path.join(out, "protected.gcode"));
+    await page.waitForFunction(() => window.cleancolor.viewer.first?.name === "protected.gcode");
+    await audited(page);
+    let asked = "";
+    page.on("dialog", (d) => { asked = d.message(); void d.accept(); });
+    await page.click("#forget");
+    await page.waitForFunction(() => window.cleancolor.viewer.first?.name === "blocks.gcode");
+    assert.match(asked, /^Forget protected\.gcode\?/);
+    await audited(page);
+    await page.click("#forget");
+    await page.waitForFunction(() => window.cleancolor.viewer.sides.length === 0);
+    assert.ok(await page.locator(".welcome").isVisible());
+    assert.ok(!(await page.locator("#forget").isVisible()));
+    const left = await (await page.request.get(new URL("/api/prints", address).href)).json();
+    assert.deepEqual(left.map((p) => p.name), ["bad.gcode"]);
+    assert.deepEqual(page.troubles, []);
     await page.context().close();
   });
 }

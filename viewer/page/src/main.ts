@@ -20,12 +20,13 @@ set_test_hooks(viewer);
 const first = el("select", { id: "print", "aria-label": "Print", change: () => void show([Number(first.value), ...shown.slice(1)]) });
 const second = el("select", { id: "compare", "aria-label": "Compare with", change: () => void show(second.value ? [shown[0]!, Number(second.value)] : [shown[0]!]) });
 const download = el("a", { class: "button", id: "download", download: true, title: "Download this G-code", hidden: true }, "Download");
+const forget = el("button", { type: "button", class: "quiet", id: "forget", title: "Have the program drop this print", hidden: true, click: () => void forget_shown() }, "Forget");
 const welcome = el("div", { class: "welcome", hidden: true }, el("h2", {}, "See how clean it comes out"),
   el("p", {}, "Drop the G-code of any slicer here to see where idle nozzles leave ooze, or meshes to slice them clean."), el("button", { type: "button", class: "primary", click: open.pick }, "Open files…"));
 main.querySelector(".stage")!.append(welcome);
 document.getElementById("page")!.append(
   el("header", {}, el("h1", {}, el("span", { class: "logo", "aria-hidden": "true" }, el("i"), el("i"), el("i")), "cleancolor"), first, second,
-    el("span", { class: "gap" }), download, el("button", { type: "button", id: "open", click: open.pick }, "Open…"), el("button", { type: "button", class: "quiet", id: "show-help", "aria-label": "Keys and help", title: "Keys (?)", click: () => help.showModal() }, "?")),
+    el("span", { class: "gap" }), forget, download, el("button", { type: "button", id: "open", click: open.pick }, "Open…"), el("button", { type: "button", class: "quiet", id: "show-help", "aria-label": "Keys and help", title: "Keys (?)", click: () => help.showModal() }, "?")),
   main, help, open.input, open.curtain);
 
 function fill_prints(): void {
@@ -34,7 +35,7 @@ function fill_prints(): void {
   second.replaceChildren(option("", "compare with…", shown.length < 2), ...here.filter((p) => p.id !== shown[0]).map((p) => option(String(p.id), p.name, p.id === shown[1])));
   first.hidden = here.length === 0;
   second.hidden = here.length < 2;
-  download.hidden = shown.length === 0;
+  download.hidden = forget.hidden = shown.length === 0;
   if (shown.length) download.href = api.gcode_address(shown[0]!);
   welcome.hidden = shown.length > 0;
 }
@@ -62,6 +63,21 @@ async function show(ids: number[]): Promise<void> {
 async function show_print(id: number): Promise<void> {
   try { prints = await api.prints(); } catch (e) { fail(e); return; }
   await show([id]);
+}
+
+/** Drops the first print and the job that made it, and shows the one compared with, else the newest. */
+async function forget_shown(): Promise<void> {
+  const print = prints.find((p) => p.id === shown[0]);
+  if (!print || !confirm(`Forget ${print.name}? What was sliced here is gone, unless you have downloaded it.`)) return;
+  try {
+    await api.forget_print(print.id);
+    for (const job of await api.jobs()) if (job.print === print.id) await api.end_job(job.id);
+    prints = await api.prints();
+  } catch (e) { fail(e); return; }
+  job_list.watch();
+  const next = shown[1] ?? prints.filter(can_be_shown).at(-1)?.id;
+  say("");
+  await show(next === undefined ? [] : [next]);
 }
 
 async function take(gcode: File[], meshes: File[], unknown: File[]): Promise<void> {

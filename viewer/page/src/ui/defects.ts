@@ -16,7 +16,7 @@ export function defects(viewer: Viewer): HTMLElement {
 
   function fill(): void {
     const n = Math.min(Number(which.value) || 0, viewer.sides.length - 1), side = viewer.sides[n];
-    if (!side) return;
+    if (!side) { note.textContent = ""; list.replaceChildren(); return; }
     if (!side.audit) { note.textContent = side.trouble || "The audit is still at work."; list.replaceChildren(); return; }
     const { places, worst, worst_mm3 } = side.audit;
     const colours = nozzle_colours(side.summary.nozzles.map((z) => z.colour)).map(css);
