@@ -107,6 +107,20 @@ export async function viewing(chrome, address) {
     assert.ok(!(await page.locator("#help").isVisible()));
   });
 
+  await test("prints opened again and again, some before the last was drawn, take no more of the graphics card", async () => {
+    const held = async () => { await audited(page); await finished(page); await settled(page); return page.evaluate(() => ({ ...window.cleancolor.viewer.stage.renderer.info.memory, programs: window.cleancolor.viewer.stage.renderer.info.programs.length })); };
+    const open = (wait_ms) => page.evaluate(async (wait_ms) => {
+      const { viewer } = window.cleancolor, opened = viewer.open(viewer.sides.map(({ name, source }) => ({ name, source })), () => undefined);
+      if (wait_ms) await new Promise((r) => setTimeout(r, wait_ms)); else await opened;
+    }, wait_ms);
+    await page.selectOption("#colouring", "smear");
+    await open(0);
+    const first = await held();
+    for (const wait_ms of [0, 150, 300, 600, 0]) await open(wait_ms);
+    assert.deepEqual(await held(), first);
+    await page.selectOption("#colouring", "extruder");
+  });
+
   await test("the G-code can be downloaded", async () => {
     const [file] = await Promise.all([page.waitForEvent("download"), page.click("#download")]);
     assert.match(file.suggestedFilename(), /\.gcode$/);

@@ -5,7 +5,7 @@ import { box_of, kinds, type Audit, type Moves, type Summary } from "../data/pri
 import { painted, place_colour, places_of, type Colouring, type Legend } from "../model/colouring.ts";
 import type { Rgba } from "../model/palette.ts";
 import { add_layer, levels, RoadBuffer, words_per_road } from "../model/roads.ts";
-import { bed } from "./bed.ts";
+import { bed, dispose_bed } from "./bed.ts";
 import { Body } from "./body.ts";
 import { Idle } from "./idle.ts";
 import { road_material, RoadChunk } from "./roads_mesh.ts";
@@ -39,7 +39,7 @@ export class PrintView implements View {
   private places: RoadChunk | null = null;
   private place_end: Uint32Array = new Uint32Array();
   private place_index: Uint32Array = new Uint32Array();
-  private bed_group = new THREE.Group();
+  private bed: THREE.Object3D | null = null;
   private colour: (move: number) => Rgba = () => 0;
   private painting = 0;
   shown: Shown;
@@ -55,7 +55,7 @@ export class PrintView implements View {
     this.idle = new Idle(summary, moves);
     this.scene.matrixAutoUpdate = false;
     this.scene.add(this.root);
-    this.root.add(this.bed_group, this.body.group, this.idle.group);
+    this.root.add(this.body.group, this.idle.group);
     this.place_material.uniforms.grow.value = 0.08;
     const [low, high] = box_of(summary);
     for (const m of [this.material, this.place_material]) m.uniforms.middle.value.set((low[0] + high[0]) / 2, (low[1] + high[1]) / 2);
@@ -76,9 +76,9 @@ export class PrintView implements View {
     this.look = look;
     this.material.uniforms.rampart.value = { hidden: 0, open: 1, whole: 2 }[look.rampart];
     this.idle.set_look(look);
-    if (this.bed_group.children.length === 0 || dark_changed) {
-      this.bed_group.clear();
-      this.bed_group.add(bed(this.summary, look.dark));
+    if (!this.bed || dark_changed) {
+      if (this.bed) dispose_bed(this.bed);
+      this.root.add((this.bed = bed(this.summary, look.dark)));
     }
     if (repaint) this.recolour(); else this.stage.ask();
   }
@@ -119,6 +119,9 @@ export class PrintView implements View {
     this.body.dispose();
     for (const c of [this.top, this.under, this.floor, this.places]) c?.dispose();
     this.idle.dispose();
+    if (this.bed) dispose_bed(this.bed);
+    this.material.dispose();
+    this.place_material.dispose();
   }
 
   private chunk_of(buffer: RoadBuffer): RoadChunk {
