@@ -121,8 +121,15 @@ test("a printer brings its materials and print settings, and parts keep to its e
   const c = with_printer(empty, profiles, "p");
   assert.deepEqual(job_request(c), { meshes: [{ id: 4, extruder: 2 }], printer: "p", materials: ["abs", "abs", "abs"], print: "fine", protect: "full", settings: { perimeters: "2" } });
   const option = { name: "layer_height", group: "print" as const, section: "Layers", kind: "number" as const, unit: "mm", per_extruder: false, help: "height of a layer", default: "0.2" };
-  assert.equal(standing_value(option, profiles, c), "0.1");
+  assert.equal(standing_value(option, { profiles, protection: {} }, c), "0.1");
   assert.ok(found(option, "layer hei") && !found(option, "layer fan"));
+});
+
+test("a level of protection sets its options over those of the profiles", () => {
+  const rampart = { name: "rampart", group: "print" as const, section: "", kind: "choice" as const, unit: "", per_extruder: false, help: "", default: "auto" };
+  const told = { profiles, protection: { none: { rampart: "off" } } };
+  assert.equal(standing_value(rampart, told, with_printer({ ...empty, protect: "none" }, profiles, "p")), "off");
+  assert.equal(standing_value(rampart, told, with_printer(empty, profiles, "p")), "auto");
 });
 
 test("files are known by their names", () => {
