@@ -17,6 +17,19 @@ export async function slicing(chrome, address) {
     await picture(page, "slice");
   });
 
+  await test("parts come back to their extruders after a printer with one", async () => {
+    const extruders = () => page.locator(".parts select").evaluateAll((all) => all.map((s) => s.value));
+    const before = await page.locator("#printer").inputValue();
+    const profiles = (await (await page.request.get(new URL("/api/profiles", address).href)).json());
+    const single = (profiles.profiles ?? profiles).find((p) => p.group === "printer" && p.extruders === 1 && !p.audit_only);
+    await page.locator(".parts select").nth(0).selectOption("1");
+    await page.selectOption("#printer", single.name);
+    assert.deepEqual(await extruders(), ["0", "0"]);
+    await page.selectOption("#printer", before);
+    assert.deepEqual(await extruders(), ["1", "1"]);
+    await page.locator(".parts select").nth(0).selectOption("0");
+  });
+
   await test("a value out of range is told in words at its field", async () => {
     await page.fill("#option-layer_height", "99");
     await page.keyboard.press("Tab");
@@ -102,4 +115,18 @@ export async function slicing(chrome, address) {
     assert.ok(await page.evaluate(() => document.querySelector('#jobs li[data-job="1"]').contains(document.activeElement)), "the focus goes on to the row beside");
   });
   await page.context().close();
+
+  await test("meshes uploaded before the profiles are there get an extruder each, too", async () => {
+    let arrive = () => undefined;
+    const wait = new Promise((r) => { arrive = r; });
+    const late = await open_page(chrome, address, {}, (page) => page.route("**/api/profiles", async (route) => { await wait; await route.continue(); }));
+    await late.waitForFunction(() => window.cleancolor);
+    await late.setInputFiles("#file", [model("two-color-world-50mm_ocean.stl"), model("two-color-world-50mm_land.stl")]);
+    await late.waitForFunction(() => document.querySelectorAll(".parts li").length === 2);
+    arrive();
+    await late.waitForFunction(() => document.querySelectorAll(".parts li").length === 4);
+    const extruders = await late.locator(".parts select").evaluateAll((all) => all.map((s) => s.value));
+    assert.deepEqual(extruders.slice(0, 2), ["0", "1"]);
+    await late.context().close();
+  });
 }

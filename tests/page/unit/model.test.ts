@@ -115,7 +115,7 @@ const profiles = [
   { group: "printer" as const, name: "p", description: "", extruders: 3, default_material: "abs", default_print: "fine", settings: { layer_height: "0.3" } },
   { group: "print" as const, name: "fine", description: "", settings: { layer_height: "0.1" } },
 ];
-const empty: Choice = { printer: "", print: "", materials: [], protect: "full", azimuth: "", meshes: [{ id: 4, extruder: 5 }], changed: new Map([["perimeters", "2"]]) };
+const empty: Choice = { printer: "", print: "", materials: [], protect: "full", azimuth: "", meshes: [{ id: 4, wanted: 5 }], changed: new Map([["perimeters", "2"]]) };
 
 test("a printer brings its materials and print settings, and parts keep to its extruders", () => {
   const c = with_printer(empty, profiles, "p");
@@ -123,6 +123,16 @@ test("a printer brings its materials and print settings, and parts keep to its e
   const option = { name: "layer_height", group: "print" as const, section: "Layers", kind: "number" as const, unit: "mm", per_extruder: false, help: "height of a layer", default: "0.2" };
   assert.equal(standing_value(option, { profiles, protection: {} }, c), "0.1");
   assert.ok(found(option, "layer hei") && !found(option, "layer fan"));
+});
+
+test("parts come back to their extruders after a printer that has fewer, and wait for printers not known yet", () => {
+  const more = [...profiles, { group: "printer" as const, name: "single", description: "", extruders: 1, settings: {} }];
+  const parts = { ...empty, meshes: [0, 1, 2].map((wanted) => ({ id: wanted, wanted })) };
+  const extruders = (c: Choice) => job_request(c).meshes.map((m) => m.extruder);
+  assert.deepEqual(extruders(parts), [0, 0, 0]);
+  const single = with_printer(parts, more, "single");
+  assert.deepEqual(extruders(single), [0, 0, 0]);
+  assert.deepEqual(extruders(with_printer(single, more, "p")), [0, 1, 2]);
 });
 
 test("a level of protection sets its options over those of the profiles", () => {
