@@ -102,6 +102,8 @@ test("a nozzle carries nothing while it prints, then V (1 - exp(-t / tau)) less 
   assert.ok(Math.abs(ooze.carried_mm3(0, 4, 5) - free) < 1e-6);
   ooze.set_audit(audit_with([{ kind: 4, nozzle: 0, move: 3, mm3: 0.1 }, { kind: 3, nozzle: 0, move: 3, mm3: 9 }], 5));
   assert.ok(Math.abs(ooze.carried_mm3(0, 4, 5) - (free - 0.1)) < 1e-6);
+  ooze.set_audit({ ...audit_with([], 5), ooze: [{ volume_mm3: 0.5, time_s: 6 }] });
+  assert.ok(Math.abs(ooze.carried_mm3(0, 4, 5) - 0.5 * (1 - Math.exp(-3 / 6))) < 1e-6, "as the audit assumed it");
 });
 
 test("nozzles of one colour are told apart", () => {
