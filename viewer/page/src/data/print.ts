@@ -40,7 +40,7 @@ export interface Places {
   count: number;
   from: Float32Array; // 3 each, mm
   to: Float32Array; // 3 each, mm
-  mm3: Float32Array;
+  mm3: Float32Array; // of smears, blobs and holes: as much as is to be seen of them; of inner: as much as is not
   visibility: Float32Array;
   layer: Uint32Array;
   move: Uint32Array;

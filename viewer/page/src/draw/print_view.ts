@@ -115,6 +115,9 @@ export class PrintView implements View {
     return { top: chunk(this.top), under: chunk(this.under), floor: chunk(this.floor), places_drawn: chunk(this.places), finished: this.body.finished() ? 1 : 0 };
   }
 
+  /** Places drawn, for tests. */
+  places_shown(): number[] { return [...this.place_index.subarray(0, this.places?.shown ?? 0)]; }
+
   dispose(): void {
     this.body.dispose();
     for (const c of [this.top, this.under, this.floor, this.places]) c?.dispose();
@@ -224,14 +227,14 @@ export class PrintView implements View {
     if (!this.audit || !kind) return;
     const { places } = this.audit, wanted = kinds.indexOf(kind), layers = this.moves.layer_z.length;
     const index: number[] = [];
-    for (let k = 0; k < places.count; k++) if (places.kind[k] === wanted && (kind !== "zipper" || places.visibility[k]! > 0.02) && (kind === "zipper" || places.mm3[k]! * places.visibility[k]! > 2e-4)) index.push(k);
+    for (let k = 0; k < places.count; k++) if (places.kind[k] === wanted && (kind !== "zipper" || places.visibility[k]! > 0.02)) index.push(k);
     index.sort((a, b) => places.layer[a]! - places.layer[b]! || a - b);
     const n = index.length;
     const buffer = new RoadBuffer(Math.max(1, n));
     this.place_end = new Uint32Array(layers);
     const colour = place_colour(this.look.colouring, this.summary, this.audit);
     index.forEach((k, i) => {
-      const width = kind === "zipper" ? 45 : Math.min(140, 32 + 180 * Math.sqrt(places.mm3[k]! * places.visibility[k]!));
+      const width = kind === "zipper" ? 45 : Math.min(140, 32 + 180 * Math.sqrt(places.mm3[k]!));
       const height = 115 * (this.moves.layer_height[places.layer[k]!] ?? 0.2);
       buffer.put(places.from, 3 * k, places.to, 3 * k, Math.round(width), Math.min(255, Math.round(height)), false, k);
       this.place_end[places.layer[k]!] = i + 1;

@@ -36,7 +36,8 @@ export class Ooze {
     this.first_s = first > 0 ? moves.end_s[first - 1]! : 0;
   }
 
-  /** Places where nozzles leave what they carry: smears, blobs, wipes. */
+  /** Places where nozzles leave what they carry: smears, blobs, wipes. What is seen and what is hidden of a smear are two
+   *  places; of a blob there is only the one that is seen. */
   set_audit(audit: Audit): void {
     const leaves = kinds.map((k) => k === "smear" || k === "inner" || k === "own" || k === "wipe");
     const { places } = audit;
@@ -46,7 +47,8 @@ export class Ooze {
       const t = this.tracks[places.nozzle[k]!];
       if (!t || !leaves[places.kind[k]!]) continue;
       t.left_move.push(places.move[k]!);
-      t.left_sum.push((t.left_sum.at(-1) ?? 0) + places.mm3[k]!);
+      const share = kinds[places.kind[k]!] === "own" ? Math.max(0.01, places.visibility[k]!) : 1;
+      t.left_sum.push((t.left_sum.at(-1) ?? 0) + places.mm3[k]! / share);
     }
   }
 

@@ -20,7 +20,7 @@ export function defects(viewer: Viewer): HTMLElement {
     if (!side.audit) { note.textContent = side.trouble || "The audit is still at work."; list.replaceChildren(); return; }
     const { places, worst, worst_mm3 } = side.audit;
     const colours = nozzle_colours(side.summary.nozzles.map((z) => z.colour)).map(css);
-    const chosen = worst.map((place, rank) => ({ place, mm3: worst_mm3[rank] ?? places.mm3[place]! * places.visibility[place]! }))
+    const chosen = worst.map((place, rank) => ({ place, mm3: worst_mm3[rank] ?? places.mm3[place]! }))
       .filter(({ place }) => !kind.value || kinds[places.kind[place]!] === kind.value);
     note.textContent = chosen.length === 0 ? "None found." : chosen.length > rows_shown ? `${amount(chosen.length)} places; the worst ${rows_shown}:` : `${chosen.length} places, the worst first`;
     list.replaceChildren(...chosen.slice(0, rows_shown).map(({ place: k, mm3 }) => {
