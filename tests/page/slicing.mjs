@@ -20,8 +20,8 @@ export async function slicing(chrome, address) {
   await test("parts come back to their extruders after a printer with one", async () => {
     const extruders = () => page.locator(".parts select").evaluateAll((all) => all.map((s) => s.value));
     const before = await page.locator("#printer").inputValue();
-    const profiles = (await (await page.request.get(new URL("/api/profiles", address).href)).json());
-    const single = (profiles.profiles ?? profiles).find((p) => p.group === "printer" && p.extruders === 1 && !p.audit_only);
+    const profiles = await (await page.request.get(new URL("/api/profiles", address).href)).json();
+    const single = profiles.find((p) => p.group === "printer" && p.extruders === 1 && !p.audit_only);
     await page.locator(".parts select").nth(0).selectOption("1");
     await page.selectOption("#printer", single.name);
     assert.deepEqual(await extruders(), ["0", "0"]);
@@ -47,6 +47,11 @@ export async function slicing(chrome, address) {
     assert.equal(await azimuth.getAttribute("placeholder"), "auto");
     await page.selectOption("#protect", "none");
     assert.equal(await azimuth.getAttribute("placeholder"), "off");
+    const levels = (await (await page.request.get(new URL("/api/profiles", address).href)).json()).filter((p) => p.group === "protection");
+    for (const { name, settings } of levels) {
+      await page.selectOption("#protect", name);
+      for (const [option, value] of Object.entries(settings)) assert.match(await page.locator(`#option-${option} option`).first().textContent(), new RegExp(`^${value} `));
+    }
     await page.selectOption("#protect", "full");
     await azimuth.fill("north");
     await page.keyboard.press("Tab");

@@ -6,7 +6,7 @@ import { after_move, carriage_at, later, layer_at, steps_of, time_at } from "../
 import { Ooze } from "../../../viewer/page/src/model/ooze.ts";
 import { mix, nozzle_colours, parse_colour, rgba } from "../../../viewer/page/src/model/palette.ts";
 import { add_layer, level_roads, levels, RoadBuffer } from "../../../viewer/page/src/model/roads.ts";
-import { found, job_request, kind_of_file, standing_value, with_printer, type Choice } from "../../../viewer/page/src/model/slicing.ts";
+import { found, job_request, kind_of_file, standing_azimuth, standing_value, with_printer, type Choice } from "../../../viewer/page/src/model/slicing.ts";
 import { audit_with, moves_from, type Line } from "./prints.ts";
 
 const all = () => true;
@@ -123,7 +123,7 @@ test("a printer brings its materials and print settings, and parts keep to its e
   const c = with_printer(empty, profiles, "p");
   assert.deepEqual(job_request(c), { meshes: [{ id: 4, extruder: 2 }], printer: "p", materials: ["abs", "abs", "abs"], print: "fine", protect: "full", settings: { perimeters: "2" } });
   const option = { name: "layer_height", group: "print" as const, section: "Layers", kind: "number" as const, unit: "mm", per_extruder: false, help: "height of a layer", default: "0.2" };
-  assert.equal(standing_value(option, { profiles, protection: {} }, c), "0.1");
+  assert.equal(standing_value(option, profiles, c), "0.1");
   assert.ok(found(option, "layer hei") && !found(option, "layer fan"));
 });
 
@@ -139,9 +139,10 @@ test("parts come back to their extruders after a printer that has fewer, and wai
 
 test("a level of protection sets its options over those of the profiles", () => {
   const rampart = { name: "rampart", group: "print" as const, section: "", kind: "choice" as const, unit: "", per_extruder: false, help: "", default: "auto" };
-  const told = { profiles, protection: { none: { rampart: "off" } } };
+  const told = [...profiles, { group: "protection" as const, name: "none", turns: false, settings: { rampart: "off" } }];
   assert.equal(standing_value(rampart, told, with_printer({ ...empty, protect: "none" }, profiles, "p")), "off");
   assert.equal(standing_value(rampart, told, with_printer(empty, profiles, "p")), "auto");
+  assert.deepEqual([standing_azimuth(told, { ...empty, protect: "none" }), standing_azimuth(told, empty)], ["off", "auto"]);
 });
 
 test("files are known by their names", () => {

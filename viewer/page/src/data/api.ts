@@ -12,13 +12,11 @@ export interface Option {
   kind: "flag" | "integer" | "number" | "percent" | "length_or_share" | "text" | "choice" | "point" | "polygon";
   choices?: string[]; per_extruder: boolean; help: string; default: string;
 }
+/** Protection: what a level of it sets, in the form of a profile; older programs do not tell. */
 export interface Profile {
-  group: "printer" | "material" | "print"; name: string; description: string; extruders?: number; default_material?: string;
-  default_print?: string; audit_only?: boolean; chosen?: boolean; settings: Record<string, string>;
+  group: "printer" | "material" | "print" | "protection"; name: string; description?: string; extruders?: number; default_material?: string;
+  default_print?: string; audit_only?: boolean; chosen?: boolean; turns?: boolean; settings: Record<string, string>;
 }
-/** What each level of protection sets, unless the person sets it. */
-export type Protection = Record<string, Record<string, string>>;
-export interface Profiles { profiles: Profile[]; protection: Protection }
 export interface Mesh { id: number; name: string; bytes: number }
 export interface JobRequest {
   meshes: { id: number; extruder: number }[]; printer: string; materials: string[]; print: string; settings: Record<string, string>; protect: string; azimuth?: string;
@@ -64,11 +62,7 @@ export const api = {
   forget_print: (id: number) => forget(`/api/prints/${id}`),
   gcode_address: (id: number) => `/api/prints/${id}/gcode`,
   options: () => json<Option[]>("/api/options"),
-  /** A list of profiles where the program tells nothing of protection. */
-  profiles: async (): Promise<Profiles> => {
-    const said = await json<Profile[] | Partial<Profiles>>("/api/profiles");
-    return Array.isArray(said) ? { profiles: said, protection: {} } : { profiles: said.profiles ?? [], protection: said.protection ?? {} };
-  },
+  profiles: () => json<Profile[]>("/api/profiles"),
   meshes: () => json<Mesh[]>("/api/meshes"),
   add_mesh: (file: File) => named("/api/meshes", file),
   forget_mesh: (id: number) => forget(`/api/meshes/${id}`),

@@ -1,5 +1,5 @@
 // What the slicing panel knows without a page: which options matter, what holds where nothing is changed, the request.
-import type { JobRequest, Option, Profile, Profiles } from "../data/api.ts";
+import type { JobRequest, Option, Profile } from "../data/api.ts";
 
 /** Shown at once; all others are under "All options". */
 export const options_that_matter = ["layer_height", "perimeters", "fill_density", "fill_pattern", "rampart", "planner", "effort", "seam_position", "brim_width", "skirts"];
@@ -9,7 +9,6 @@ export const azimuth_option: Option = {
   name: "azimuth", group: "print", section: "", unit: "", kind: "text", per_extruder: false, default: "auto",
   help: "auto: so that idle nozzles hover least over another colour; off; or by so many degrees",
 };
-export const standing_azimuth = (choice: Choice) => (choice.protect === "none" ? "off" : "auto");
 
 export interface Choice {
   printer: string; print: string; materials: string[]; protect: string;
@@ -20,12 +19,13 @@ export interface Choice {
 
 const profile = (all: Profile[], group: Profile["group"], name: string | undefined) => all.find((p) => p.group === group && p.name === name);
 
+/** How the parts are turned where nothing is set. */
+export const standing_azimuth = (profiles: Profile[], choice: Choice) => ((profile(profiles, "protection", choice.protect)?.turns ?? choice.protect !== "none") ? "auto" : "off");
+
 /** The text that holds where nothing is set: of the level of protection, else the print settings, else the material, else
  *  the printer, else the default. */
-export function standing_value(option: Option, { profiles, protection }: Profiles, choice: Choice): string {
-  const kept = protection[choice.protect]?.[option.name];
-  if (kept !== undefined) return kept;
-  for (const p of [profile(profiles, "print", choice.print), profile(profiles, "material", choice.materials[0]), profile(profiles, "printer", choice.printer)]) {
+export function standing_value(option: Option, profiles: Profile[], choice: Choice): string {
+  for (const p of [profile(profiles, "protection", choice.protect), profile(profiles, "print", choice.print), profile(profiles, "material", choice.materials[0]), profile(profiles, "printer", choice.printer)]) {
     const text = p?.settings[option.name];
     if (text !== undefined) return text;
   }

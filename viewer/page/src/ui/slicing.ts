@@ -1,5 +1,5 @@
 // The slicing panel: parts, printer, materials, options, and the button. What the server refuses is shown at its field.
-import { api, Refusal, type Mesh, type Option, type Profile, type Protection } from "../data/api.ts";
+import { api, Refusal, type Mesh, type Option, type Profile } from "../data/api.ts";
 import { azimuth_option, extruder_of, extruders_of, found, job_request, options_that_matter, standing_azimuth, standing_value, with_printer, type Choice } from "../model/slicing.ts";
 import { el, field, option as choice_of } from "./dom.ts";
 import { option_field, type OptionField } from "./option_field.ts";
@@ -10,7 +10,7 @@ export interface Slicing { element: HTMLElement; add_mesh: (mesh: Mesh) => void 
 const protections: [string, string][] = [["full", "full: azimuth, rampart, planner"], ["rampart", "azimuth and rampart"], ["none", "none"]];
 
 export function slicing(pick: () => void, started: (id: number) => void): Slicing {
-  let options: Option[] = [], profiles: Profile[] = [], protection: Protection = {}, meshes: Mesh[] = [];
+  let options: Option[] = [], profiles: Profile[] = [], meshes: Mesh[] = [];
   let choice: Choice = { printer: "", print: "", materials: [], protect: "full", azimuth: "", meshes: [], changed: new Map() };
   const fields = new Map<string, OptionField[]>();
 
@@ -86,14 +86,14 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
       const remove = el("button", { type: "button", class: "quiet small", "aria-label": `Remove ${mesh?.name}`, click: () => { choice.meshes = choice.meshes.filter((x) => x !== m); void api.forget_mesh(m.id).catch(() => undefined); refresh(); } }, "×");
       return el("li", {}, el("span", { class: "name", title: mesh ? `${amount(mesh.bytes / 1000)} kB` : undefined }, mesh?.name ?? `mesh ${m.id}`), extruder, remove);
     }));
-    fields.get(azimuth_option.name)?.forEach((f) => f.show(choice.azimuth || undefined, standing_azimuth(choice)));
-    for (const o of options) fields.get(o.name)?.forEach((f) => f.show(choice.changed.get(o.name), standing_value(o, { profiles, protection }, choice)));
+    fields.get(azimuth_option.name)?.forEach((f) => f.show(choice.azimuth || undefined, standing_azimuth(profiles, choice)));
+    for (const o of options) fields.get(o.name)?.forEach((f) => f.show(choice.changed.get(o.name), standing_value(o, profiles, choice)));
   }
 
   async function load(): Promise<void> {
     const [got_options, got_profiles, got_meshes] = await Promise.all([api.options(), api.profiles(), api.meshes()]);
     options = got_options;
-    ({ profiles, protection } = got_profiles);
+    profiles = got_profiles;
     const printers = profiles.filter((p) => p.group === "printer" && !p.audit_only);
     printer.replaceChildren(...printers.map((p) => choice_of(p.name, p.name)));
     print.replaceChildren(...profiles.filter((p) => p.group === "print").map((p) => choice_of(p.name, p.name)));
