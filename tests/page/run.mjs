@@ -5,6 +5,7 @@ import path from "node:path";
 import { two_blocks, vase } from "./gcode.mjs";
 import { browser, out, program, root, serve, summary } from "./harness.mjs";
 import { known_picture } from "./known_picture.mjs";
+import { opening } from "./opening.mjs";
 import { report } from "./report.mjs";
 import { slicing } from "./slicing.mjs";
 import { first_picture, two_million } from "./speed.mjs";
@@ -34,7 +35,7 @@ const chrome = await browser();
 const only = process.argv[2];
 const groups = [
   ["viewing", [file("protected.gcode"), file("bare.gcode")], viewing], ["troubled", [file("blocks.gcode"), file("bad.gcode")], troubled],
-  ["known", [file("blocks.gcode")], known_picture], ["slicing", [], slicing],
+  ["known", [file("blocks.gcode")], known_picture], ["opening", [], opening], ["slicing", [], slicing],
   ["report", [file("protected.gcode")], report], ["first", null, first_picture(file("ten-megabytes.gcode"))], ["speed", [file("two-million.gcode")], two_million],
 ];
 try {
