@@ -25,8 +25,8 @@ const welcome = el("div", { class: "welcome", hidden: true }, el("h2", {}, "See 
   el("p", {}, "Drop the G-code of any slicer here to see where idle nozzles leave ooze, or meshes to slice them clean."), el("button", { type: "button", class: "primary", click: open.pick }, "Open files…"));
 main.querySelector(".stage")!.append(welcome);
 document.getElementById("page")!.append(
-  el("header", {}, el("h1", {}, el("span", { class: "logo", "aria-hidden": "true" }, el("i"), el("i"), el("i")), "cleancolor"), first, second,
-    el("span", { class: "gap" }), forget, download, el("button", { type: "button", id: "open", click: open.pick }, "Open…"), el("button", { type: "button", class: "quiet", id: "show-help", "aria-label": "Keys and help", title: "Keys (?)", click: () => help.showModal() }, "?")),
+  el("header", {}, el("h1", {}, el("span", { class: "logo", "aria-hidden": "true" }, el("i"), el("i"), el("i")), "cleancolor"), first, forget, second,
+    el("span", { class: "gap" }), download, el("button", { type: "button", id: "open", click: open.pick }, "Open…"), el("button", { type: "button", class: "quiet", id: "show-help", "aria-label": "Keys and help", title: "Keys (?)", click: () => help.showModal() }, "?")),
   main, help, open.input, open.curtain);
 
 function fill_prints(): void {
