@@ -47,7 +47,7 @@ export async function viewing(chrome, address) {
     assert.equal(prints.length, 2);
     await page.evaluate(() => { const v = window.cleancolor.viewer; v.go({ layer: v.first.moves.layer_z.length - 1 }); });
     for (const [side, { id, name }] of prints.entries()) {
-      const audit = await request(`/api/prints/${id}/audit.json`), { figures, layers, places: defects } = audit.scenarios.worst;
+      const audit = await request(`/api/prints/${id}/audit.json`), { figures, layers, places: defects, ooze } = audit.scenarios.worst;
       const shown = (await page.evaluate(() => window.cleancolor.counts()))[side];
       assert.equal(shown.moves, motions(readFileSync(path.join(out, name), "utf8")));
       assert.equal(shown.layers, audit.print.layers);
@@ -58,6 +58,8 @@ export async function viewing(chrome, address) {
       listed.forEach(({ mm3 }, k) => near(mm3, defects[k].mm3, `defect ${k}`));
       const of_layers = await page.evaluate((side) => { const { layer_smear, layer_hole, layer_zippers } = window.cleancolor.viewer.sides[side].audit; return [layer_smear, layer_hole, layer_zippers].map((a) => [...a]); }, side);
       layers.forEach((l, k) => ["smear_volume", "hole_volume", "zippers"].forEach((figure, f) => near(of_layers[f][k], l[figure], `${figure} of layer ${l.layer}`)));
+      const assumed = await page.evaluate((side) => window.cleancolor.viewer.sides[side].audit.ooze, side);
+      assumed.forEach((rate, n) => assert.deepEqual(rate, { volume_mm3: (ooze[n] ?? ooze.at(-1)).volume_mm3, time_s: (ooze[n] ?? ooze.at(-1)).time_s }));
       for (const [colouring, kind, figure] of [["smear", 0, "smear_volume"], ["hole", 3, "hole_volume"], ["zipper", 5, "zippers_visible"]]) {
         await page.selectOption("#colouring", colouring);
         await settled(page);
