@@ -49,13 +49,14 @@ export const browser = () => chromium.launch({
   args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
 });
 
-/** A page at an address, audited and drawn in full; `troubles` gathers what the console complains of. */
-export async function open_page(chrome, address, options = {}) {
+/** A page at an address, audited and drawn in full; `troubles` gathers what the console complains of; `before` prepares the page. */
+export async function open_page(chrome, address, options = {}, before = async () => {}) {
   const context = await chrome.newContext({ viewport: { width: 1280, height: 720 }, acceptDownloads: true, ...options });
   const page = await context.newPage();
   page.troubles = [];
   page.on("console", (m) => { if (m.type() === "error" || /content security/i.test(m.text())) page.troubles.push(m.text()); });
   page.on("pageerror", (e) => page.troubles.push(String(e)));
+  await before(page);
   await page.goto(address);
   return page;
 }

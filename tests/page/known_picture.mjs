@@ -51,6 +51,7 @@ export async function known_picture(chrome, address) {
     const cut = await page.evaluate(() => window.cleancolor.counts()[0]);
     assert.equal(cut.top, 2 * (4 + 49), "a layer has two outlines of four roads and 49 lines of infill in each");
     await picture(page, "known");
+    assert.deepEqual(page.troubles, []);
     await page.context().close();
   });
 }

@@ -17,6 +17,19 @@ export async function slicing(chrome, address) {
     await picture(page, "slice");
   });
 
+  await test("parts come back to their extruders after a printer with one", async () => {
+    const extruders = () => page.locator(".parts select").evaluateAll((all) => all.map((s) => s.value));
+    const before = await page.locator("#printer").inputValue();
+    const profiles = await (await page.request.get(new URL("/api/profiles", address).href)).json();
+    const single = profiles.find((p) => p.group === "printer" && p.extruders === 1 && !p.audit_only);
+    await page.locator(".parts select").nth(0).selectOption("1");
+    await page.selectOption("#printer", single.name);
+    assert.deepEqual(await extruders(), ["0", "0"]);
+    await page.selectOption("#printer", before);
+    assert.deepEqual(await extruders(), ["1", "1"]);
+    await page.locator(".parts select").nth(0).selectOption("0");
+  });
+
   await test("a value out of range is told in words at its field", async () => {
     await page.fill("#option-layer_height", "99");
     await page.keyboard.press("Tab");
@@ -34,6 +47,11 @@ export async function slicing(chrome, address) {
     assert.equal(await azimuth.getAttribute("placeholder"), "auto");
     await page.selectOption("#protect", "none");
     assert.equal(await azimuth.getAttribute("placeholder"), "off");
+    const levels = (await (await page.request.get(new URL("/api/profiles", address).href)).json()).filter((p) => p.group === "protection");
+    for (const { name, settings } of levels) {
+      await page.selectOption("#protect", name);
+      for (const [option, value] of Object.entries(settings)) assert.match(await page.locator(`#option-${option} option`).first().textContent(), new RegExp(`^${value} `));
+    }
     await page.selectOption("#protect", "full");
     await azimuth.fill("north");
     await page.keyboard.press("Tab");
@@ -59,6 +77,13 @@ export async function slicing(chrome, address) {
     await page.waitForSelector('#jobs li[data-job="1"]');
     await page.click("#slice");
     await page.waitForSelector('#jobs li[data-job="2"]');
+    const cancel = page.locator('#jobs li[data-job="1"] button', { hasText: "Cancel" });
+    await cancel.focus();
+    await page.evaluate(() => { window.row_of_1 = document.querySelector('#jobs li[data-job="1"]'); });
+    await job(1, "running");
+    await page.waitForTimeout(1000); // the queue is asked for several times
+    assert.ok(await cancel.evaluate((b) => b === document.activeElement && window.row_of_1.contains(b)), "the focus stays on Cancel while the job goes on");
+    assert.equal(await page.locator('#jobs li[data-job="1"] [aria-live]').textContent(), "running");
     await page.locator('#jobs li[data-job="2"] button', { hasText: "Cancel" }).click();
     await page.locator('#jobs li[data-job="1"] button', { hasText: "Cancel" }).click();
     await job(2, "cancelled");
@@ -85,5 +110,28 @@ export async function slicing(chrome, address) {
     // The 400 of values out of range are the only complaints there are.
     assert.deepEqual(page.troubles.filter((t) => !/status of 400/.test(t)), []);
   });
+
+  await test("with a print forgotten goes the job that made it; another job's row can be forgotten by itself", async () => {
+    page.on("dialog", (d) => void d.accept());
+    await page.click("#forget");
+    await page.waitForFunction(() => !document.querySelector('#jobs li[data-job="3"]'));
+    await page.locator('#jobs li[data-job="2"] button', { hasText: "Forget" }).click();
+    await page.waitForFunction(() => !document.querySelector('#jobs li[data-job="2"]'));
+    assert.ok(await page.evaluate(() => document.querySelector('#jobs li[data-job="1"]').contains(document.activeElement)), "the focus goes on to the row beside");
+  });
   await page.context().close();
+
+  await test("meshes uploaded before the profiles are there get an extruder each, too", async () => {
+    let arrive = () => undefined;
+    const wait = new Promise((r) => { arrive = r; });
+    const late = await open_page(chrome, address, {}, (page) => page.route("**/api/profiles", async (route) => { await wait; await route.continue(); }));
+    await late.waitForFunction(() => window.cleancolor);
+    await late.setInputFiles("#file", [model("two-color-world-50mm_ocean.stl"), model("two-color-world-50mm_land.stl")]);
+    await late.waitForFunction(() => document.querySelectorAll(".parts li").length === 2);
+    arrive();
+    await late.waitForFunction(() => document.querySelectorAll(".parts li").length === 4);
+    const extruders = await late.locator(".parts select").evaluateAll((all) => all.map((s) => s.value));
+    assert.deepEqual(extruders.slice(0, 2), ["0", "1"]);
+    await late.context().close();
+  });
 }

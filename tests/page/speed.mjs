@@ -1,21 +1,62 @@
 // The page is fast: first picture of 10 MB of G-code, and 2 million moves under a scrubbing slider, drawn in software.
 import assert from "node:assert/strict";
-import { audited, finished, open_page, picture, settled, test } from "./harness.mjs";
+import { statSync } from "node:fs";
+import { audited, finished, open_page, picture, serve, settled, test } from "./harness.mjs";
 
 const bars = { first_picture_ms: 2000, script_ms: 10, draw_calls: 50, settle_ms: 500 };
+const first_bytes = 10e6;
 
-export async function first_picture(chrome, address) {
-  await test("the first picture of 10 MB of G-code comes within 2 s", async () => {
-    let best = Infinity;
-    for (let k = 0; k < 2 && best > bars.first_picture_ms; k++) {
-      const page = await open_page(chrome, address);
-      await page.waitForFunction(() => performance.getEntriesByName("cleancolor first picture").length > 0, null, { timeout: 60000 });
-      best = Math.min(best, await page.evaluate(() => performance.getEntriesByName("cleancolor first picture")[0].startTime));
-      await page.context().close();
-    }
-    console.log(`      first picture after ${Math.round(best)} ms`);
-    assert.ok(best < bars.first_picture_ms, `${best} ms`);
+/** The value that this share of the numbers does not exceed. */
+function quantile(numbers, share) {
+  const sorted = [...numbers].sort((a, b) => a - b);
+  return sorted[Math.max(0, Math.ceil(share * sorted.length) - 1)];
+}
+
+/** From starting the program, which knows nothing of the file yet, to the picture on the screen. */
+async function first_picture_ms(chrome, file) {
+  const start = Date.now();
+  const server = await serve([file]);
+  try {
+    const page = await open_page(chrome, server.address);
+    await page.waitForFunction(() => performance.getEntriesByName("cleancolor first picture").length > 0, null, { timeout: 60000 });
+    const drawn = await page.evaluate(() => performance.timeOrigin + performance.getEntriesByName("cleancolor first picture")[0].startTime);
+    assert.deepEqual(page.troubles, []);
+    await page.context().close();
+    return drawn - start;
+  } finally { server.end(); }
+}
+
+export const first_picture = (file) => async (chrome) => {
+  await test("the first picture of 10 MB of G-code comes within 2 s of starting the program", async () => {
+    assert.ok(statSync(file).size >= first_bytes, "the file is as large as promised");
+    const tries = [];
+    for (let k = 0; k < 3; k++) tries.push(await first_picture_ms(chrome, file));
+    const median = quantile(tries, 0.5);
+    console.log(`      first picture after ${tries.map(Math.round).join(", ")} ms`);
+    assert.ok(median < bars.first_picture_ms, `${median} ms`);
   });
+};
+
+/** Changes an input of the page and waits for the full picture: what it took, for each of these values. */
+const measured = (page, id, event, values) => page.evaluate(async ([id, event, values]) => {
+  const { counters, settled } = window.cleancolor, input = document.getElementById(id), steps = [];
+  for (const value of values) {
+    await settled();
+    counters.script_ms_worst = 0;
+    const start = performance.now();
+    input.value = String(value);
+    input.dispatchEvent(new Event(event));
+    const handler_ms = performance.now() - start;
+    await settled();
+    steps.push({ settle_ms: performance.now() - start, handler_ms, script_ms: Math.max(handler_ms, counters.script_ms_worst), draw_calls: counters.draw_calls, roads: counters.roads });
+  }
+  return steps;
+}, [id, event, values]);
+
+function told(what, steps) {
+  const of = (key, share) => quantile(steps.map((s) => s[key]), share);
+  console.log(`      ${what}: settles in ${Math.round(of("settle_ms", 0.5))} ms (95 %: ${Math.round(of("settle_ms", 0.95))}), script ${of("script_ms", 0.5).toFixed(1)} ms (95 %: ${of("script_ms", 0.95).toFixed(1)}), ${of("draw_calls", 1)} draw calls, ${of("roads", 1)} roads`);
+  return of;
 }
 
 export async function two_million(chrome, address) {
@@ -25,29 +66,22 @@ export async function two_million(chrome, address) {
     await audited(page);
     await finished(page);
     await settled(page);
-    const steps = await page.evaluate(async () => {
-      const { viewer, counters, settled } = window.cleancolor;
-      const steps = [], n = viewer.first.moves.layer_z.length;
-      const slider = document.getElementById("layer");
-      for (const share of [0.98, 0.9, 0.8, 0.802, 0.804, 0.6, 0.5, 0.502, 0.3, 0.7]) {
-        counters.script_ms_worst = 0;
-        const start = performance.now();
-        slider.value = String(Math.floor(share * n));
-        slider.dispatchEvent(new Event("input"));
-        const handler_ms = performance.now() - start;
-        await settled();
-        steps.push({ settle_ms: performance.now() - start, script_ms: Math.max(handler_ms, counters.script_ms_worst), draw_calls: counters.draw_calls, roads: counters.roads });
-      }
-      return steps;
-    });
-    const sorted = (what) => steps.map((s) => s[what]).sort((a, b) => a - b);
-    const middle = (what) => sorted(what)[Math.floor(steps.length / 2)], worst = (what) => sorted(what).at(-1);
-    console.log(`      settles in ${Math.round(middle("settle_ms"))} ms (worst ${Math.round(worst("settle_ms"))}), script ${middle("script_ms").toFixed(1)} ms (worst ${worst("script_ms").toFixed(1)}), ${worst("draw_calls")} draw calls, ${worst("roads")} roads`);
+    const layers = await page.evaluate(() => window.cleancolor.viewer.first.moves.layer_z.length);
+    // Over the whole height and to and fro, and some steps of a layer or two.
+    const shares = Array.from({ length: 40 }, (_, k) => (k % 4 === 3 ? ((k - 1) * 0.37) % 1 + 0.003 : (k * 0.37) % 1));
+    const of = told("scrubbing", await measured(page, "layer", "input", shares.map((s) => Math.floor(s * (layers - 1)))));
     await picture(page, "two-million");
-    assert.ok(worst("draw_calls") <= bars.draw_calls);
-    // The machine may do other things at times: the middle is what is promised, the worst must be near.
-    assert.ok(middle("script_ms") <= bars.script_ms && worst("script_ms") <= 3 * bars.script_ms, "script");
-    assert.ok(middle("settle_ms") < bars.settle_ms && worst("settle_ms") < 2 * bars.settle_ms, "settle");
+    assert.ok(of("draw_calls", 1) <= bars.draw_calls);
+    assert.ok(of("script_ms", 0.95) <= bars.script_ms, "script");
+    assert.ok(of("settle_ms", 0.95) < bars.settle_ms, "settle");
+  });
+
+  await test("2 million moves: another colouring is on the screen within 0.5 s", async () => {
+    await page.evaluate(() => { const v = window.cleancolor.viewer; v.go({ layer: v.first.moves.layer_z.length - 1 }); });
+    const colourings = await page.locator("#colouring option").evaluateAll((all) => all.map((o) => o.value));
+    const of = told("colouring", await measured(page, "colouring", "change", [...colourings.slice(1), ...colourings]));
+    assert.ok(of("settle_ms", 0.95) < bars.settle_ms, "settle");
+    assert.deepEqual(page.troubles, []);
   });
   await page.context().close();
 }

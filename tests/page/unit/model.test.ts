@@ -6,7 +6,7 @@ import { after_move, carriage_at, later, layer_at, steps_of, time_at } from "../
 import { Ooze } from "../../../viewer/page/src/model/ooze.ts";
 import { mix, nozzle_colours, parse_colour, rgba } from "../../../viewer/page/src/model/palette.ts";
 import { add_layer, level_roads, levels, RoadBuffer } from "../../../viewer/page/src/model/roads.ts";
-import { found, job_request, kind_of_file, standing_value, with_printer, type Choice } from "../../../viewer/page/src/model/slicing.ts";
+import { found, job_request, kind_of_file, standing_azimuth, standing_value, with_printer, type Choice } from "../../../viewer/page/src/model/slicing.ts";
 import { audit_with, moves_from, type Line } from "./prints.ts";
 
 const all = () => true;
@@ -102,6 +102,8 @@ test("a nozzle carries nothing while it prints, then V (1 - exp(-t / tau)) less 
   assert.ok(Math.abs(ooze.carried_mm3(0, 4, 5) - free) < 1e-6);
   ooze.set_audit(audit_with([{ kind: 4, nozzle: 0, move: 3, mm3: 0.1 }, { kind: 3, nozzle: 0, move: 3, mm3: 9 }], 5));
   assert.ok(Math.abs(ooze.carried_mm3(0, 4, 5) - (free - 0.1)) < 1e-6);
+  ooze.set_audit({ ...audit_with([], 5), ooze: [{ volume_mm3: 0.5, time_s: 6 }] });
+  assert.ok(Math.abs(ooze.carried_mm3(0, 4, 5) - 0.5 * (1 - Math.exp(-3 / 6))) < 1e-6, "as the audit assumed it");
 });
 
 test("nozzles of one colour are told apart", () => {
@@ -115,7 +117,7 @@ const profiles = [
   { group: "printer" as const, name: "p", description: "", extruders: 3, default_material: "abs", default_print: "fine", settings: { layer_height: "0.3" } },
   { group: "print" as const, name: "fine", description: "", settings: { layer_height: "0.1" } },
 ];
-const empty: Choice = { printer: "", print: "", materials: [], protect: "full", azimuth: "", meshes: [{ id: 4, extruder: 5 }], changed: new Map([["perimeters", "2"]]) };
+const empty: Choice = { printer: "", print: "", materials: [], protect: "full", azimuth: "", meshes: [{ id: 4, wanted: 5 }], changed: new Map([["perimeters", "2"]]) };
 
 test("a printer brings its materials and print settings, and parts keep to its extruders", () => {
   const c = with_printer(empty, profiles, "p");
@@ -123,6 +125,24 @@ test("a printer brings its materials and print settings, and parts keep to its e
   const option = { name: "layer_height", group: "print" as const, section: "Layers", kind: "number" as const, unit: "mm", per_extruder: false, help: "height of a layer", default: "0.2" };
   assert.equal(standing_value(option, profiles, c), "0.1");
   assert.ok(found(option, "layer hei") && !found(option, "layer fan"));
+});
+
+test("parts come back to their extruders after a printer that has fewer, and wait for printers not known yet", () => {
+  const more = [...profiles, { group: "printer" as const, name: "single", description: "", extruders: 1, settings: {} }];
+  const parts = { ...empty, meshes: [0, 1, 2].map((wanted) => ({ id: wanted, wanted })) };
+  const extruders = (c: Choice) => job_request(c).meshes.map((m) => m.extruder);
+  assert.deepEqual(extruders(parts), [0, 0, 0]);
+  const single = with_printer(parts, more, "single");
+  assert.deepEqual(extruders(single), [0, 0, 0]);
+  assert.deepEqual(extruders(with_printer(single, more, "p")), [0, 1, 2]);
+});
+
+test("a level of protection sets its options over those of the profiles", () => {
+  const rampart = { name: "rampart", group: "print" as const, section: "", kind: "choice" as const, unit: "", per_extruder: false, help: "", default: "auto" };
+  const told = [...profiles, { group: "protection" as const, name: "none", turns: false, settings: { rampart: "off" } }];
+  assert.equal(standing_value(rampart, told, with_printer({ ...empty, protect: "none" }, profiles, "p")), "off");
+  assert.equal(standing_value(rampart, told, with_printer(empty, profiles, "p")), "auto");
+  assert.deepEqual([standing_azimuth(told, { ...empty, protect: "none" }), standing_azimuth(told, empty)], ["off", "auto"]);
 });
 
 test("files are known by their names", () => {

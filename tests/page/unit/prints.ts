@@ -20,7 +20,7 @@ export function moves_from(lines: Line[], offsets: [number, number][] = [[0, 0],
 export function audit_with(places: { kind: number; nozzle: number; move: number; mm3: number }[], moves: number): Audit {
   const n = places.length, layer = new Uint32Array(n);
   return {
-    visibility: new Uint8Array(moves), layer_smear: new Float32Array(1), layer_hole: new Float32Array(1), layer_zippers: new Float32Array(1), worst: [], worst_mm3: [], figures: {},
+    visibility: new Uint8Array(moves), layer_smear: new Float32Array(1), layer_hole: new Float32Array(1), layer_zippers: new Float32Array(1), worst: [], worst_mm3: [], figures: {}, ooze: [],
     places: { count: n, from: new Float32Array(3 * n), to: new Float32Array(3 * n), mm3: Float32Array.from(places, (p) => p.mm3), visibility: new Float32Array(n).fill(1), layer,
       move: Uint32Array.from(places, (p) => p.move), kind: Uint8Array.from(places, (p) => p.kind), nozzle: Uint8Array.from(places, (p) => p.nozzle), over: new Uint8Array(n) },
   };

@@ -1,6 +1,6 @@
 // The page of `cleancolor view`: prints of the server, files opened here, slicing.
 import "./style.css";
-import { api, Refusal, ServerSource, type PrintState } from "./data/api.ts";
+import { api, can_be_shown, ServerSource, type PrintState } from "./data/api.ts";
 import { set_test_hooks } from "./test_hooks.ts";
 import { el, option } from "./ui/dom.ts";
 import { jobs } from "./ui/jobs.ts";
@@ -9,7 +9,7 @@ import { slicing } from "./ui/slicing.ts";
 import { viewer_layout } from "./ui/viewer_layout.ts";
 
 let prints: PrintState[] = [];
-let shown: number[] = [];
+let shown: number[] = []; // ids of the prints shown, or about to be
 
 const open = opener((gcode, meshes, unknown) => void take(gcode, meshes, unknown));
 const slice_panel = slicing(open.pick, (id) => job_list.watch(id));
@@ -20,38 +20,64 @@ set_test_hooks(viewer);
 const first = el("select", { id: "print", "aria-label": "Print", change: () => void show([Number(first.value), ...shown.slice(1)]) });
 const second = el("select", { id: "compare", "aria-label": "Compare with", change: () => void show(second.value ? [shown[0]!, Number(second.value)] : [shown[0]!]) });
 const download = el("a", { class: "button", id: "download", download: true, title: "Download this G-code", hidden: true }, "Download");
+const forget = el("button", { type: "button", class: "quiet", id: "forget", title: "Have the program drop this print", hidden: true, click: () => void forget_shown() }, "Forget");
 const welcome = el("div", { class: "welcome", hidden: true }, el("h2", {}, "See how clean it comes out"),
   el("p", {}, "Drop the G-code of any slicer here to see where idle nozzles leave ooze, or meshes to slice them clean."), el("button", { type: "button", class: "primary", click: open.pick }, "Open files…"));
 main.querySelector(".stage")!.append(welcome);
 document.getElementById("page")!.append(
-  el("header", {}, el("h1", {}, el("span", { class: "logo", "aria-hidden": "true" }, el("i"), el("i"), el("i")), "cleancolor"), first, second,
+  el("header", {}, el("h1", {}, el("span", { class: "logo", "aria-hidden": "true" }, el("i"), el("i"), el("i")), "cleancolor"), first, forget, second,
     el("span", { class: "gap" }), download, el("button", { type: "button", id: "open", click: open.pick }, "Open…"), el("button", { type: "button", class: "quiet", id: "show-help", "aria-label": "Keys and help", title: "Keys (?)", click: () => help.showModal() }, "?")),
   main, help, open.input, open.curtain);
 
 function fill_prints(): void {
-  const here = prints.filter((p) => p.state !== "failed");
+  const here = prints.filter(can_be_shown);
   first.replaceChildren(...here.map((p) => option(String(p.id), p.name, p.id === shown[0])));
   second.replaceChildren(option("", "compare with…", shown.length < 2), ...here.filter((p) => p.id !== shown[0]).map((p) => option(String(p.id), p.name, p.id === shown[1])));
   first.hidden = here.length === 0;
   second.hidden = here.length < 2;
-  download.hidden = shown.length === 0;
+  download.hidden = forget.hidden = shown.length === 0;
   if (shown.length) download.href = api.gcode_address(shown[0]!);
   welcome.hidden = shown.length > 0;
 }
 
-function fail(e: unknown): void { say(e instanceof Refusal || e instanceof Error ? e.message : String(e)); }
+function fail(e: unknown): void { say(e instanceof Error ? e.message : String(e)); }
+
+viewer.on((what) => { if (what === "prints") look_again(); });
+/** Sets what the page says is shown to what the viewer shows: of the prints asked for, some may be unreadable. */
+function look_again(): void {
+  shown = viewer.sides.map((s) => (s.source as ServerSource).id);
+  fill_prints();
+}
 
 async function show(ids: number[]): Promise<void> {
   shown = ids.filter((id, i) => prints.some((p) => p.id === id) && ids.indexOf(id) === i);
   fill_prints();
   try {
     await viewer.open(shown.map((id) => ({ name: prints.find((p) => p.id === id)!.name, source: new ServerSource(id) })), say);
-  } catch (e) { fail(e); }
+  } catch (e) {
+    fail(e);
+    look_again();
+  }
 }
 
 async function show_print(id: number): Promise<void> {
   try { prints = await api.prints(); } catch (e) { fail(e); return; }
   await show([id]);
+}
+
+/** Drops the first print and the job that made it, and shows the one compared with, else the newest. */
+async function forget_shown(): Promise<void> {
+  const print = prints.find((p) => p.id === shown[0]);
+  if (!print || !confirm(`Forget ${print.name}? What was sliced here is gone, unless you have downloaded it.`)) return;
+  try {
+    await api.forget_print(print.id);
+    for (const job of await api.jobs()) if (job.print === print.id) await api.end_job(job.id);
+    prints = await api.prints();
+  } catch (e) { fail(e); return; }
+  job_list.watch();
+  const next = shown[1] ?? prints.filter(can_be_shown).at(-1)?.id;
+  say("");
+  await show(next === undefined ? [] : [next]);
 }
 
 async function take(gcode: File[], meshes: File[], unknown: File[]): Promise<void> {
@@ -73,10 +99,8 @@ async function take(gcode: File[], meshes: File[], unknown: File[]): Promise<voi
 try {
   prints = await api.prints();
   job_list.watch();
-  const good = prints.filter((p) => p.state !== "failed");
+  const good = prints.filter(can_be_shown), bad = prints.filter((p) => !can_be_shown(p));
   fill_prints();
-  const bad = prints.find((p) => p.state === "failed");
-  if (good.length) await show(good.slice(0, 2).map((p) => p.id));
-  else if (bad) fail(new Error(`${bad.name} cannot be read`));
+  if (prints.length) await show([...good.slice(0, 2), ...bad].map((p) => p.id)); // the bad ones, to hear why
   else if ((await api.meshes()).length) side.show("slice");
 } catch (e) { fail(e); }

@@ -8,11 +8,20 @@ import { PrintView, type Look } from "./draw/print_view.ts";
 import { Stage } from "./draw/stage.ts";
 import { after_move, later, layer_at, steps_of, time_at, type Moment } from "./model/moment.ts";
 
-export interface Side { name: string; summary: Summary; moves: Moves; audit: Audit | null; view: PrintView }
+export interface Side {
+  name: string; source: Source; summary: Summary; moves: Moves; view: PrintView; audit: Audit | null;
+  trouble: string; // why there is no audit; empty where there is one, or will be
+}
 export type Change = "prints" | "moment" | "look" | "audit" | "selection" | "play";
 
 const dark_query = window.matchMedia("(prefers-color-scheme: dark)");
 const still_query = window.matchMedia("(prefers-reduced-motion: reduce)");
+
+/** An error in words, after the name of the print unless they name it. */
+function trouble(name: string, e: unknown): string {
+  const words = e instanceof Error ? e.message : String(e);
+  return words.includes(name) ? words : `${name}: ${words}`;
+}
 
 export class Viewer {
   readonly stage: Stage;
@@ -37,18 +46,22 @@ export class Viewer {
   on(listener: (what: Change) => void): void { this.listeners.push(listener); }
   get first(): Side | undefined { return this.sides[0]; }
 
-  /** Shows these prints, and nothing else. `said` hears how far reading is. */
-  async open(sources: { name: string; source: Source }[], said: (text: string, progress: number) => void): Promise<void> {
+  /** Shows those of these prints that can be read, and nothing else. `said` hears how far reading is, and at last why
+   *  others cannot be read or audited. Throws where none can be read; what was shown before then stays. */
+  async open(sources: { name: string; source: Source }[], said: (text: string, progress?: number) => void): Promise<void> {
     const generation = ++this.generation;
     const current = () => generation === this.generation;
     this.play(false);
-    const loaded = await Promise.all(sources.map(async ({ name, source }) => ({ name, source, ...(await source.drawn((t, p) => { if (current()) said(`${name}: ${t}`, p); })) })));
+    const read = await Promise.allSettled(sources.map(async ({ name, source }) => ({ name, source, ...(await source.drawn((t, p) => { if (current()) said(`${name}: ${t}`, p); })) })));
     await this.stage.ready;
     if (!current()) return;
+    const loaded = read.flatMap((r) => (r.status === "fulfilled" ? [r.value] : []));
+    const troubles = read.flatMap((r, k) => (r.status === "rejected" ? [trouble(sources[k]!.name, r.reason)] : []));
+    if (loaded.length === 0 && troubles.length > 0) throw new Error(troubles.join("\n"));
     performance.mark("cleancolor moves here");
     this.select(null);
     for (const s of this.sides.splice(0)) s.view.dispose();
-    for (const { name, summary, moves } of loaded) this.sides.push({ name, summary, moves, audit: null, view: new PrintView(summary, moves, this.stage, this.look) });
+    for (const { name, source, summary, moves } of loaded) this.sides.push({ name, source, summary, moves, audit: null, trouble: "", view: new PrintView(summary, moves, this.stage, this.look) });
     this.stage.views = this.sides.map((s) => s.view);
     this.from_layer = 0;
     if (this.first) {
@@ -61,15 +74,18 @@ export class Viewer {
     await Promise.all(this.sides.map((s) => s.view.first_picture));
     if (!current()) return;
     performance.mark("cleancolor first picture");
-    await Promise.all(loaded.map(async ({ source }, k) => {
-      const audit = await source.audited((t, p) => { if (current()) said(t, p); });
-      const side = this.sides[k];
-      if (!current() || !side) return;
-      side.audit = audit;
-      side.view.set_audit(audit);
-      this.emit("audit");
+    await Promise.all([...this.sides].map(async (side) => {
+      try {
+        const audit = await side.source.audited((t, p) => { if (current()) said(t, p); });
+        if (!current()) return;
+        side.audit = audit;
+        side.view.set_audit(audit);
+      } catch (e) {
+        troubles.push((side.trouble = trouble(side.name, e)));
+      }
+      if (current()) this.emit("audit");
     }));
-    if (current()) said("", 1);
+    if (current()) said(troubles.join("\n"));
   }
 
   set_look(look: Partial<Look>): void {

@@ -3,6 +3,8 @@ import { audit_of, moves_of, type Audit, type Moves, type Summary } from "./prin
 import type { Source } from "./source.ts";
 
 export type Trouble = string | { message: string; field?: string };
+/** Whether its moves can be shown, now or soon. */
+export const can_be_shown = (p: PrintState) => p.state !== "failed" || p.summary !== undefined;
 export const words_of = (trouble: Trouble | undefined) => (typeof trouble === "object" ? trouble.message : (trouble ?? ""));
 export interface PrintState { id: number; name: string; state: "reading" | "drawn" | "audited" | "failed"; error?: Trouble; progress?: number; stage?: string; summary?: Summary }
 export interface Option {
@@ -10,17 +12,22 @@ export interface Option {
   kind: "flag" | "integer" | "number" | "percent" | "length_or_share" | "text" | "choice" | "point" | "polygon";
   choices?: string[]; per_extruder: boolean; help: string; default: string;
 }
+/** Protection: what a level of it sets, in the form of a profile; older programs do not tell. */
 export interface Profile {
-  group: "printer" | "material" | "print"; name: string; description: string; extruders?: number; default_material?: string;
-  default_print?: string; audit_only?: boolean; chosen?: boolean; settings: Record<string, string>;
+  group: "printer" | "material" | "print" | "protection"; name: string; description?: string; extruders?: number; default_material?: string;
+  default_print?: string; audit_only?: boolean; chosen?: boolean; turns?: boolean; settings: Record<string, string>;
 }
 export interface Mesh { id: number; name: string; bytes: number }
 export interface JobRequest {
   meshes: { id: number; extruder: number }[]; printer: string; materials: string[]; print: string; settings: Record<string, string>; protect: string; azimuth?: string;
 }
+export interface JobSummary {
+  layers: number; tool_changes: number; time_s: number; azimuth_deg: number; rampart_g: number;
+  extruders: { extruder: number; filament_mm: number; filament_g: number; cost: number }[];
+}
 export interface Job {
   id: number; state: "queued" | "running" | "done" | "failed" | "cancelled"; position?: number; stage?: string; progress?: number;
-  warnings?: string[]; error?: Trouble; print?: number; summary?: Summary; name?: string;
+  warnings?: string[]; error?: Trouble; print?: number; summary?: JobSummary; name?: string;
 }
 
 /** What the server refused, in its words; `field` names the option at fault, if one is. */
@@ -46,7 +53,8 @@ const named = (path: string, file: File) => json<{ id: number }>(`${path}?name=$
 const forget = (path: string) => ask(path, { method: "DELETE" }).then(() => undefined);
 
 export const api = {
-  prints: () => json<PrintState[]>("/api/prints"),
+  /** Prints that failed with their summary, where they failed only in the audit. */
+  prints: async () => Promise.all((await json<PrintState[]>("/api/prints")).map((p) => (p.state === "failed" ? api.print(p.id).catch(() => p) : p))),
   print: (id: number) => json<PrintState>(`/api/prints/${id}`),
   moves: async (id: number) => (await ask(`/api/prints/${id}/moves`)).arrayBuffer(),
   audit: async (id: number) => (await ask(`/api/prints/${id}/audit`)).arrayBuffer(),
@@ -67,7 +75,7 @@ export const api = {
 export const pause = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
 export class ServerSource implements Source {
-  constructor(private readonly id: number) {}
+  constructor(readonly id: number) {}
 
   async drawn(said: (stage: string, progress: number) => void): Promise<{ summary: Summary; moves: Moves }> {
     const state = await this.until((s) => s.summary !== undefined, said);
@@ -82,8 +90,8 @@ export class ServerSource implements Source {
   private async until(there: (s: PrintState) => boolean, said: (stage: string, progress: number) => void): Promise<PrintState> {
     for (let wait_ms = 30; ; wait_ms = Math.min(400, wait_ms * 1.4)) {
       const state = await api.print(this.id);
+      if (there(state)) return state; // also of a print that failed later: its moves are there
       if (state.state === "failed") throw new Refusal(words_of(state.error) || "the file cannot be read", 0);
-      if (there(state)) return state;
       said(state.stage || "reading", state.progress ?? 0);
       await pause(wait_ms);
     }

@@ -40,7 +40,7 @@ export interface Places {
   count: number;
   from: Float32Array; // 3 each, mm
   to: Float32Array; // 3 each, mm
-  mm3: Float32Array;
+  mm3: Float32Array; // of smears, blobs and holes: as much as is to be seen of them; of inner: as much as is not
   visibility: Float32Array;
   layer: Uint32Array;
   move: Uint32Array;
@@ -58,7 +58,11 @@ export interface Audit {
   worst: number[]; // indices of places, of those close together the worst
   worst_mm3: number[]; // of all that are close together
   figures: Record<string, number>;
+  ooze: OozeRate[]; // of each nozzle, as the audit assumed it; empty where it does not say
 }
+
+/** An idle nozzle carries volume_mm3 (1 - exp(-t / time_s)). */
+export interface OozeRate { volume_mm3: number; time_s: number }
 
 /** The box of the part, else of all plastic; where there is none, some place to look at. */
 export const box_of = (s: Summary): Box => s.part_box_mm ?? s.box_mm ?? [[-50, -50, 0], [50, 50, 50]];
@@ -109,5 +113,6 @@ export function audit_of(bytes: ArrayBuffer): Audit {
       nozzle: column(p, "place_nozzle", Uint8Array), over: column(p, "place_over", Uint8Array),
     },
     worst: p.header["worst"] as number[], worst_mm3: (p.header["worst_mm3"] as number[] | undefined) ?? [], figures: p.header["figures"] as Record<string, number>,
+    ooze: (p.header["ooze"] as OozeRate[] | undefined) ?? [],
   };
 }

@@ -22,6 +22,12 @@ export function bed(summary: Summary, dark: boolean): THREE.Object3D {
   return group;
 }
 
+/** Frees what a bed holds on the graphics card. */
+export function dispose_bed(bed: THREE.Object3D): void {
+  bed.removeFromParent();
+  bed.traverse((o) => { if (o instanceof THREE.Mesh || o instanceof THREE.LineSegments) { o.geometry.dispose(); (o.material as THREE.Material).dispose(); } });
+}
+
 function plate_material(dark: boolean): THREE.Material {
   const material = flat_material(dark ? "#20242b" : "#eae7e0");
   material.polygonOffset = true;

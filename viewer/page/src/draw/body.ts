@@ -47,10 +47,10 @@ export class Body {
         const end = Math.min(roads.count, k + chunk_roads);
         const chunk = new RoadChunk(roads.words.subarray(words_per_road * k, words_per_road * end), roads.move.subarray(k, end), this.material);
         paint(chunk);
-        await upload(chunk.mesh);
-        if (this.disposed) return;
-        this.group.add(chunk.mesh);
         chunks.push(chunk);
+        await upload(chunk.mesh);
+        if (this.disposed) { chunks.forEach((c) => c.dispose()); return; }
+        this.group.add(chunk.mesh);
       }
       this.built[n]?.chunks.forEach((c) => c.dispose());
       this.built[n] = { chunks, roads };

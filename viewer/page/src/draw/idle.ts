@@ -129,5 +129,11 @@ export class Idle {
     this.travels.geometry.setDrawRange(0, 2 * this.travels_done());
   }
 
-  dispose(): void { for (const l of [...this.ghosts, this.travels, this.tips, this.strings, this.drops]) l.geometry.dispose(); }
+  dispose(): void {
+    for (const l of [...this.ghosts, this.travels, this.tips, this.strings, this.drops]) {
+      l.geometry.dispose();
+      (l.material as THREE.Material).dispose();
+      if (l instanceof THREE.InstancedMesh) l.dispose();
+    }
+  }
 }

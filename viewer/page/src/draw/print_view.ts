@@ -5,7 +5,7 @@ import { box_of, kinds, type Audit, type Moves, type Summary } from "../data/pri
 import { painted, place_colour, places_of, type Colouring, type Legend } from "../model/colouring.ts";
 import type { Rgba } from "../model/palette.ts";
 import { add_layer, levels, RoadBuffer, words_per_road } from "../model/roads.ts";
-import { bed } from "./bed.ts";
+import { bed, dispose_bed } from "./bed.ts";
 import { Body } from "./body.ts";
 import { Idle } from "./idle.ts";
 import { road_material, RoadChunk } from "./roads_mesh.ts";
@@ -39,7 +39,7 @@ export class PrintView implements View {
   private places: RoadChunk | null = null;
   private place_end: Uint32Array = new Uint32Array();
   private place_index: Uint32Array = new Uint32Array();
-  private bed_group = new THREE.Group();
+  private bed: THREE.Object3D | null = null;
   private colour: (move: number) => Rgba = () => 0;
   private painting = 0;
   shown: Shown;
@@ -55,7 +55,7 @@ export class PrintView implements View {
     this.idle = new Idle(summary, moves);
     this.scene.matrixAutoUpdate = false;
     this.scene.add(this.root);
-    this.root.add(this.bed_group, this.body.group, this.idle.group);
+    this.root.add(this.body.group, this.idle.group);
     this.place_material.uniforms.grow.value = 0.08;
     const [low, high] = box_of(summary);
     for (const m of [this.material, this.place_material]) m.uniforms.middle.value.set((low[0] + high[0]) / 2, (low[1] + high[1]) / 2);
@@ -76,9 +76,9 @@ export class PrintView implements View {
     this.look = look;
     this.material.uniforms.rampart.value = { hidden: 0, open: 1, whole: 2 }[look.rampart];
     this.idle.set_look(look);
-    if (this.bed_group.children.length === 0 || dark_changed) {
-      this.bed_group.clear();
-      this.bed_group.add(bed(this.summary, look.dark));
+    if (!this.bed || dark_changed) {
+      if (this.bed) dispose_bed(this.bed);
+      this.root.add((this.bed = bed(this.summary, look.dark)));
     }
     if (repaint) this.recolour(); else this.stage.ask();
   }
@@ -115,10 +115,16 @@ export class PrintView implements View {
     return { top: chunk(this.top), under: chunk(this.under), floor: chunk(this.floor), places_drawn: chunk(this.places), finished: this.body.finished() ? 1 : 0 };
   }
 
+  /** Places drawn, for tests. */
+  places_shown(): number[] { return [...this.place_index.subarray(0, this.places?.shown ?? 0)]; }
+
   dispose(): void {
     this.body.dispose();
     for (const c of [this.top, this.under, this.floor, this.places]) c?.dispose();
     this.idle.dispose();
+    if (this.bed) dispose_bed(this.bed);
+    this.material.dispose();
+    this.place_material.dispose();
   }
 
   private chunk_of(buffer: RoadBuffer): RoadChunk {
@@ -221,14 +227,14 @@ export class PrintView implements View {
     if (!this.audit || !kind) return;
     const { places } = this.audit, wanted = kinds.indexOf(kind), layers = this.moves.layer_z.length;
     const index: number[] = [];
-    for (let k = 0; k < places.count; k++) if (places.kind[k] === wanted && (kind !== "zipper" || places.visibility[k]! > 0.02) && (kind === "zipper" || places.mm3[k]! * places.visibility[k]! > 2e-4)) index.push(k);
+    for (let k = 0; k < places.count; k++) if (places.kind[k] === wanted && (kind !== "zipper" || places.visibility[k]! > 0.02)) index.push(k);
     index.sort((a, b) => places.layer[a]! - places.layer[b]! || a - b);
     const n = index.length;
     const buffer = new RoadBuffer(Math.max(1, n));
     this.place_end = new Uint32Array(layers);
     const colour = place_colour(this.look.colouring, this.summary, this.audit);
     index.forEach((k, i) => {
-      const width = kind === "zipper" ? 45 : Math.min(140, 32 + 180 * Math.sqrt(places.mm3[k]! * places.visibility[k]!));
+      const width = kind === "zipper" ? 45 : Math.min(140, 32 + 180 * Math.sqrt(places.mm3[k]!));
       const height = 115 * (this.moves.layer_height[places.layer[k]!] ?? 0.2);
       buffer.put(places.from, 3 * k, places.to, 3 * k, Math.round(width), Math.min(255, Math.round(height)), false, k);
       this.place_end[places.layer[k]!] = i + 1;

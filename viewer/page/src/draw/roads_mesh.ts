@@ -109,6 +109,8 @@ export class RoadChunk {
 
   dispose(): void {
     this.mesh.removeFromParent();
+    this.mesh.geometry.setIndex(null); // others use it on
+    this.mesh.geometry.dispose();
     this.mesh.material.dispose();
     this.road_texture.dispose();
     this.colour_texture.dispose();

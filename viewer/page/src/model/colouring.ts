@@ -86,5 +86,5 @@ export function place_colour(colouring: Colouring, summary: Summary, audit: Audi
     return (k) => nozzles[nozzle[k]!] ?? grey;
   }
   if (colouring === "zipper") return (k) => heat[Math.min(255, Math.round(255 * visibility[k]!))]!;
-  return (k) => heat[Math.min(255, Math.round(255 * Math.sqrt((mm3[k]! * visibility[k]!) / 0.1)))]!;
+  return (k) => heat[Math.min(255, Math.round(255 * Math.sqrt(mm3[k]! / 0.1)))]!;
 }

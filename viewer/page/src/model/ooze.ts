@@ -1,8 +1,9 @@
 // What a nozzle carries at a moment, as the audit's scenario worst has it (docs/audit.md): it grows with the time since
 // the nozzle last printed, and what it has left on the way is gone.
-import { flag, kinds, type Audit, type Moves } from "../data/print.ts";
+import { flag, kinds, type Audit, type Moves, type OozeRate } from "../data/print.ts";
 
-export const ooze_volume_mm3 = 2, ooze_time_s = 20;
+/** Until the audit says what it assumed. */
+export const usual_ooze: OozeRate = { volume_mm3: 2, time_s: 20 };
 
 /** Last index k with values[k] <= x; -1 where there is none. */
 export function last_at_most(values: ArrayLike<number>, x: number, from = 0, to = values.length): number {
@@ -15,6 +16,7 @@ interface Track { begin: number[]; end: number[]; left_move: number[]; left_sum:
 
 export class Ooze {
   private readonly tracks: Track[];
+  private rates: OozeRate[] = [];
   private readonly first_s: number; // when the first nozzle begins to print
 
   constructor(private readonly moves: Moves, nozzles: number) {
@@ -34,16 +36,19 @@ export class Ooze {
     this.first_s = first > 0 ? moves.end_s[first - 1]! : 0;
   }
 
-  /** Places where nozzles leave what they carry: smears, blobs, wipes. */
+  /** Places where nozzles leave what they carry: smears, blobs, wipes. What is seen and what is hidden of a smear are two
+   *  places; of a blob there is only the one that is seen. */
   set_audit(audit: Audit): void {
     const leaves = kinds.map((k) => k === "smear" || k === "inner" || k === "own" || k === "wipe");
     const { places } = audit;
+    this.rates = audit.ooze;
     for (const t of this.tracks) { t.left_move = []; t.left_sum = []; }
     for (let k = 0; k < places.count; k++) {
       const t = this.tracks[places.nozzle[k]!];
       if (!t || !leaves[places.kind[k]!]) continue;
       t.left_move.push(places.move[k]!);
-      t.left_sum.push((t.left_sum.at(-1) ?? 0) + places.mm3[k]!);
+      const share = kinds[places.kind[k]!] === "own" ? Math.max(0.01, places.visibility[k]!) : 1;
+      t.left_sum.push((t.left_sum.at(-1) ?? 0) + places.mm3[k]! / share);
     }
   }
 
@@ -56,6 +61,7 @@ export class Ooze {
     const since = k >= 0 ? t.end[k]! : -1;
     const idle_s = Math.max(0, time_s - (k >= 0 ? this.moves.end_s[since]! : this.first_s));
     const left_at = (m: number) => { const at = last_at_most(t.left_move, m); return at < 0 ? 0 : t.left_sum[at]!; };
-    return Math.max(0, ooze_volume_mm3 * (1 - Math.exp(-idle_s / ooze_time_s)) - (left_at(move) - left_at(since)));
+    const { volume_mm3, time_s: slowness_s } = this.rates[nozzle] ?? usual_ooze;
+    return Math.max(0, volume_mm3 * (1 - Math.exp(-idle_s / slowness_s)) - (left_at(move) - left_at(since)));
   }
 }

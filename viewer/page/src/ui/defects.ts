@@ -16,11 +16,11 @@ export function defects(viewer: Viewer): HTMLElement {
 
   function fill(): void {
     const n = Math.min(Number(which.value) || 0, viewer.sides.length - 1), side = viewer.sides[n];
-    if (!side) return;
-    if (!side.audit) { note.textContent = "The audit is still at work."; list.replaceChildren(); return; }
+    if (!side) { note.textContent = ""; list.replaceChildren(); return; }
+    if (!side.audit) { note.textContent = side.trouble || "The audit is still at work."; list.replaceChildren(); return; }
     const { places, worst, worst_mm3 } = side.audit;
     const colours = nozzle_colours(side.summary.nozzles.map((z) => z.colour)).map(css);
-    const chosen = worst.map((place, rank) => ({ place, mm3: worst_mm3[rank] ?? places.mm3[place]! * places.visibility[place]! }))
+    const chosen = worst.map((place, rank) => ({ place, mm3: worst_mm3[rank] ?? places.mm3[place]! }))
       .filter(({ place }) => !kind.value || kinds[places.kind[place]!] === kind.value);
     note.textContent = chosen.length === 0 ? "None found." : chosen.length > rows_shown ? `${amount(chosen.length)} places; the worst ${rows_shown}:` : `${chosen.length} places, the worst first`;
     list.replaceChildren(...chosen.slice(0, rows_shown).map(({ place: k, mm3 }) => {

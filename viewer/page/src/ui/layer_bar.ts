@@ -29,9 +29,10 @@ export function layer_bar(viewer: Viewer): HTMLElement {
   });
   canvas.addEventListener("mouseleave", () => { tip.hidden = true; });
 
+  let drawn = "";
   const sync = () => {
     const m = viewer.first?.moves;
-    if (!m) return;
+    if (!m) { label.textContent = drawn = ""; canvas.width = canvas.height = 0; return; }
     upper.max = lower.max = String(m.layer_z.length - 1);
     upper.value = String(viewer.at.layer);
     lower.value = String(viewer.from_layer);
@@ -41,7 +42,6 @@ export function layer_bar(viewer: Viewer): HTMLElement {
     upper.setAttribute("aria-valuetext", `layer ${viewer.at.layer + 1} of ${m.layer_z.length}, ${z.toFixed(2)} mm`);
     lower.setAttribute("aria-valuetext", `from layer ${viewer.from_layer + 1}`);
   };
-  let drawn = "";
   const draw = () => {
     const side = viewer.first, box = canvas.getBoundingClientRect();
     const key = `${box.width} ${box.height} ${viewer.at.layer} ${viewer.from_layer} ${viewer.look.dark} ${viewer.sides.map((s) => s.name + (s.audit ? 1 : 0)).join()}`;

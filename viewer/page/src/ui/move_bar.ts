@@ -17,7 +17,7 @@ export function move_bar(viewer: Viewer): HTMLElement {
 
   const sync = () => {
     const side = viewer.first;
-    if (!side) return;
+    if (!side) { where.textContent = ""; carried.replaceChildren(); return; }
     const { moves, summary, view } = side, all = steps_of(moves, viewer.at.layer), move = move_at(moves, viewer.at);
     slider.max = String(all);
     slider.value = String(viewer.at.step);

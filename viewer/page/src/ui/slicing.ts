@@ -1,6 +1,6 @@
 // The slicing panel: parts, printer, materials, options, and the button. What the server refuses is shown at its field.
 import { api, Refusal, type Mesh, type Option, type Profile } from "../data/api.ts";
-import { azimuth_option, extruders_of, found, job_request, options_that_matter, standing_azimuth, standing_value, with_printer, type Choice } from "../model/slicing.ts";
+import { azimuth_option, extruder_of, extruders_of, found, job_request, options_that_matter, standing_azimuth, standing_value, with_printer, type Choice } from "../model/slicing.ts";
 import { el, field, option as choice_of } from "./dom.ts";
 import { option_field, type OptionField } from "./option_field.ts";
 import { amount } from "./words.ts";
@@ -82,11 +82,11 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
     }));
     parts.replaceChildren(...choice.meshes.map((m) => {
       const mesh = meshes.find((x) => x.id === m.id);
-      const extruder = el("select", { "aria-label": `Extruder of ${mesh?.name}`, change: () => { m.extruder = Number(extruder.value); } }, ...Array.from({ length: n }, (_, i) => choice_of(String(i), `extruder ${i + 1}`, i === m.extruder)));
+      const extruder = el("select", { "aria-label": `Extruder of ${mesh?.name}`, change: () => { m.wanted = Number(extruder.value); } }, ...Array.from({ length: n }, (_, i) => choice_of(String(i), `extruder ${i + 1}`, i === extruder_of(m, choice))));
       const remove = el("button", { type: "button", class: "quiet small", "aria-label": `Remove ${mesh?.name}`, click: () => { choice.meshes = choice.meshes.filter((x) => x !== m); void api.forget_mesh(m.id).catch(() => undefined); refresh(); } }, "×");
       return el("li", {}, el("span", { class: "name", title: mesh ? `${amount(mesh.bytes / 1000)} kB` : undefined }, mesh?.name ?? `mesh ${m.id}`), extruder, remove);
     }));
-    fields.get(azimuth_option.name)?.forEach((f) => f.show(choice.azimuth || undefined, standing_azimuth(choice)));
+    fields.get(azimuth_option.name)?.forEach((f) => f.show(choice.azimuth || undefined, standing_azimuth(profiles, choice)));
     for (const o of options) fields.get(o.name)?.forEach((f) => f.show(choice.changed.get(o.name), standing_value(o, profiles, choice)));
   }
 
@@ -116,7 +116,7 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
   function take(mesh: Mesh): void {
     if (meshes.some((m) => m.id === mesh.id)) return;
     meshes.push(mesh);
-    choice.meshes.push({ id: mesh.id, extruder: Math.min(choice.meshes.length, extruders_of(profiles, choice.printer) - 1) });
+    choice.meshes.push({ id: mesh.id, wanted: choice.meshes.length });
   }
 
   void load().catch(complain);

@@ -1,0 +1,78 @@
+// One print that cannot be read, or not audited, leaves the page with the others, and the page says why.
+import assert from "node:assert/strict";
+import path from "node:path";
+import { audited, open_page, out, test } from "./harness.mjs";
+
+const names = (page) => page.evaluate(() => window.cleancolor.viewer.sides.map((s) => s.name));
+const status = (page) => page.locator(".status").textContent();
+
+export async function troubled(chrome, address) {
+  await test("a file that cannot be read does not hide one that can, and the page says why", async () => {
+    const page = await open_page(chrome, address);
+    await audited(page);
+    assert.deepEqual(await names(page), ["blocks.gcode"]);
+    await page.waitForFunction(() => /bad\.gcode/.test(document.querySelector(".status").textContent));
+    assert.ok(await page.locator(".status").isVisible());
+    assert.match(await status(page), /bad\.gcode: .{10}/);
+    assert.equal(await page.locator("#print").inputValue(), "1");
+    assert.deepEqual(page.troubles, []);
+    await page.context().close();
+  });
+
+  await test("a print that fails only in the audit is shown without it", async () => {
+    const failed = { state: "failed", error: "out of memory" };
+    const page = await open_page(chrome, address, {}, async (page) => {
+      await page.route("**/api/prints", async (route) => {
+        const rows = await (await route.fetch()).json();
+        await route.fulfill({ json: rows.map((row) => ({ ...row, ...failed })) });
+      });
+      await page.route("**/api/prints/1", async (route) => {
+        const print = await (await route.fetch()).json();
+        await route.fulfill({ json: print.summary ? { ...print, ...failed } : print });
+      });
+    });
+    await page.waitForFunction(() => window.cleancolor?.viewer.first?.trouble);
+    assert.deepEqual(await names(page), ["blocks.gcode"]);
+    assert.match(await status(page), /blocks\.gcode: out of memory/);
+    assert.match(await page.locator("#pane-defects .note").textContent(), /out of memory/);
+    assert.deepEqual(await page.locator("#print option").allTextContents(), ["blocks.gcode"]);
+    await page.context().close();
+  });
+
+  await test("what is wrong with a print is not told when another is open by then", async () => {
+    const page = await open_page(chrome, address);
+    await audited(page);
+    const said = await page.evaluate(async () => {
+      const { viewer } = window.cleancolor, said = [], { source } = viewer.first;
+      const late = { drawn: () => new Promise((_, refuse) => setTimeout(() => refuse(new Error("too late")), 200)) };
+      const first = viewer.open([{ name: "late", source: late }], (text) => said.push(text)).catch((e) => said.push(e.message));
+      await Promise.all([first, viewer.open([{ name: "next", source }], () => undefined)]);
+      return said;
+    });
+    assert.deepEqual(said, []);
+    assert.deepEqual(await names(page), ["next"]);
+    await page.context().close();
+  });
+
+  await test("a print forgotten is gone from the program, and the next is shown, or how to open one", async () => {
+    const page = await open_page(chrome, address);
+    await audited(page);
+    await page.setInputFiles("#file", path.join(out, "protected.gcode"));
+    await page.waitForFunction(() => window.cleancolor.viewer.first?.name === "protected.gcode");
+    await audited(page);
+    let asked = "";
+    page.on("dialog", (d) => { asked = d.message(); void d.accept(); });
+    await page.click("#forget");
+    await page.waitForFunction(() => window.cleancolor.viewer.first?.name === "blocks.gcode");
+    assert.match(asked, /^Forget protected\.gcode\?/);
+    await audited(page);
+    await page.click("#forget");
+    await page.waitForFunction(() => window.cleancolor.viewer.sides.length === 0);
+    assert.ok(await page.locator(".welcome").isVisible());
+    assert.ok(!(await page.locator("#forget").isVisible()));
+    const left = await (await page.request.get(new URL("/api/prints", address).href)).json();
+    assert.deepEqual(left.map((p) => p.name), ["bad.gcode"]);
+    assert.deepEqual(page.troubles, []);
+    await page.context().close();
+  });
+}
