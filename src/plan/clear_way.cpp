@@ -184,15 +184,21 @@ bool crosses(const TravelCost& cost, std::span<const Vec2> way) {
 }
 
 std::vector<Vec2> clear_way(const TravelCost& cost, int extruder, Vec2 from_mm, Vec2 to_mm, double longest_mm) {
-  const auto search = [&](double cell_mm, double margin_mm) {
-    Grid grid(cost, extruder, from_mm, to_mm, cell_mm, margin_mm);
-    return grid.may_hang_together() ? grid.cheap(longest_mm) : std::vector<Vec2>{};
+  const auto grid = [&](double cell_mm, double margin_mm) {
+    return Grid(cost, extruder, from_mm, to_mm, cell_mm, margin_mm);
   };
   const auto is_clear = [&](const std::vector<Vec2>& way) { return !way.empty() && !crosses(cost, way); };
-  std::vector<Vec2> way = search(coarse_mm, wide_mm);
-  if (!is_clear(way)) way = search(fine_mm, wide_mm);
+  std::vector<Vec2> way;
+  // Between the nodes of the coarse grid lie whole walls: only the fine one knows whether there may be a way.
+  if (Grid fine = grid(fine_mm, wide_mm); fine.may_hang_together()) {
+    way = grid(coarse_mm, wide_mm).cheap(longest_mm);
+    if (!is_clear(way)) way = fine.cheap(longest_mm);
+  }
   // Both ends within one cell, or a gap that lies between nodes.
-  if (!is_clear(way) && distance(from_mm, to_mm) < near_mm) way = search(finest_mm, near_mm);
+  if (!is_clear(way) && distance(from_mm, to_mm) < near_mm) {
+    Grid finest = grid(finest_mm, near_mm);
+    way = finest.may_hang_together() ? finest.cheap(longest_mm) : std::vector<Vec2>{};
+  }
   return is_clear(way) ? pulled(way, cost) : std::vector<Vec2>{};
 }
 

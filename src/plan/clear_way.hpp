@@ -5,7 +5,7 @@
 //
 // The roadmap's way is nearly always clear. Where it is not, for its places leave a gap out or another way costs less,
 // a grid is searched (A*, hurried: a way may be a little dearer than the cheapest): of 0.5 mm, then of 0.25 mm, which
-// finds the gaps, and for short hops of 0.08 mm. That one end lies in a pocket is known first.
+// finds the gaps, and for short hops of 0.08 mm. Whether one end lies in a pocket, the grid of 0.25 mm knows first.
 #pragma once
 
 #include <span>

@@ -110,8 +110,7 @@ Surroundings surroundings(std::span<const Place> places, std::size_t steps, cons
   Box<Vec2> box;
   for (const Place& p : places) box.add(p.at_mm);
   Surroundings around{places, steps, scene.part, bounds_mm(scene.part), rows_of(scene.standing), SegmentRows(box)};
-  for (std::size_t s = 0; s < steps; ++s)
-    around.own.add(places[s].at_mm, places[(s + 1) % places.size()].at_mm, s);
+  for (std::size_t s = 0; s < steps; ++s) around.own.add(places[s].at_mm, places[(s + 1) % places.size()].at_mm, s);
   return around;
 }
 
@@ -150,8 +149,8 @@ double exposure_mm(const Meeting& m, std::size_t first, bool backwards) {
   const std::vector<Wipe>& wipes = backwards ? m.backward : m.ahead;
   const std::size_t n = over.size() - 1;
   const auto steps_to = [&](const Wipe& w) { return backwards ? (first + n - w.step) % n : (w.step + n - first) % n; };
-  const auto next = std::size_t(std::ranges::lower_bound(wipes, backwards ? first + 1 : first, {}, &Wipe::step) -
-                                wipes.begin());
+  const auto next =
+      std::size_t(std::ranges::lower_bound(wipes, backwards ? first + 1 : first, {}, &Wipe::step) - wipes.begin());
   for (std::size_t i = 0; i < wipes.size(); ++i) {
     const Wipe& w = wipes[(backwards ? next + 2 * wipes.size() - 1 - i : next + i) % wipes.size()];
     if (steps_to(w) < w.steps_before) continue;
