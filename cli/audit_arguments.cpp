@@ -24,7 +24,7 @@ const char* const audit_description =
 
 namespace {
 
-constexpr const char* examples =
+constexpr const char* audit_examples =
     "Examples:\n"
     "  cleancolor audit print.gcode --printer replicator-dual\n"
     "  cleancolor audit print.gcode --nozzle-offset 0x0,33x0 --offsets-in slicer -o report.html --json figures.json\n"
@@ -38,7 +38,7 @@ constexpr double largest_number = 1e6;
 constexpr std::uint32_t most_places = 100000;
 
 std::string footer() {
-  std::string text = examples;
+  std::string text = audit_examples;
   text += "Figures for --fail-over:\n";
   for (const FigureInfo& f : figure_table())
     text += fmt::format("  {:<31}{:<5}{}\n", f.name, f.unit == "1" ? "" : f.unit, f.help);

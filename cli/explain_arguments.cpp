@@ -19,7 +19,7 @@ const char* const explain_description =
 
 namespace {
 
-constexpr const char* examples =
+constexpr const char* explain_examples =
     "Examples:\n"
     "  cleancolor explain globe.gcode --layer 60 -o layer.svg\n"
     "  cleancolor explain globe.gcode --layer 60 -o layer.png --nozzle-offset 0x0,33x0 --offsets-in slicer\n"
@@ -30,7 +30,7 @@ constexpr const char* examples =
 
 CLI::App* add_explain(CLI::App& program, ExplainTexts& texts) {
   CLI::App* explain = program.add_subcommand("explain", "draw how one layer of G-code was planned");
-  explain->footer(std::string(examples) + exit_codes);
+  explain->footer(std::string(explain_examples) + exit_codes);
   ExplainCommand& command = texts.command;
   explain->add_option("file", command.file, "G-code file")->type_name("FILE");
   explain->add_option("--layer", texts.layer, "layer to explain, from 1")->type_name("N");

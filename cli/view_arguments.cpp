@@ -20,7 +20,7 @@ const char* const view_description =
 
 namespace {
 
-constexpr const char* examples =
+constexpr const char* view_examples =
     "Examples:\n"
     "  cleancolor view globe.gcode\n"
     "  cleancolor view ours.gcode prusa.gcode --nozzle-offset 0x0,33x0 --offsets-in slicer\n"
@@ -42,7 +42,7 @@ bool has_ending(const std::filesystem::path& file, std::span<const std::string_v
 
 CLI::App* add_view(CLI::App& program, ViewTexts& texts) {
   CLI::App* view = program.add_subcommand("view", "show prints in the browser, and slice from there");
-  view->footer(std::string(examples) + exit_codes);
+  view->footer(std::string(view_examples) + exit_codes);
   ViewCommand& command = texts.command;
   view->add_option("files", texts.files, "G-code files and meshes")->type_name("FILE");
   add_machine(*view, texts.machine);

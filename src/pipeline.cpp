@@ -141,7 +141,7 @@ Azimuths azimuths_of(const SliceRequest& request, std::span<const Part> parts, c
 }
 
 /// From where the print is looked at.
-View view(const Config& config, double turned_deg) {
+ViewBias view(const Config& config, double turned_deg) {
   const auto direction_deg = view_direction_deg(config.view_direction);
   if (!direction_deg) return {};
   const double angle = (*direction_deg + turned_deg) * std::numbers::pi / 180;

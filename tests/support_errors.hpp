@@ -1,6 +1,6 @@
 // support_errors.hpp
 //
-// For tests of what is refused: the message of an Error, and files with their text.
+// For tests of what is refused or warned of: the message of an Error, warnings, and files with their text.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,8 +12,10 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/error.hpp"
+#include "base/progress.hpp"
 
 namespace cleancolor {
 
@@ -26,6 +28,11 @@ inline std::string error_of(const std::function<void()>& action) {
   }
   return "no error";
 }
+
+struct Warned {
+  std::vector<std::string> warnings;
+  Progress progress{.warn = [this](const std::string& w) { warnings.push_back(w); }};
+};
 
 inline std::string file_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

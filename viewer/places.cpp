@@ -10,17 +10,17 @@
 namespace cleancolor {
 namespace {
 
-constexpr std::uint32_t moves_per_block = 16384;
+constexpr std::uint32_t moves_per_box = 16384;
 
 /// Of each move in the middle of the road that it lays.
 std::vector<std::uint8_t> visibility(const GcodePrint& print, const AuditMachine& machine, const AuditResult& result,
                                      int threads) {
   const std::size_t count = print.moves.size();
   std::vector<std::uint8_t> visible(count);
-  const auto blocks = int((count + moves_per_block - 1) / moves_per_block);
+  const auto blocks = int((count + moves_per_box - 1) / moves_per_box);
   parallel_for(blocks, thread_count(threads), [&](int block) {
-    const std::uint32_t first = std::uint32_t(block) * moves_per_block;
-    const auto last = std::uint32_t(std::min(count, std::size_t(first) + moves_per_block));
+    const std::uint32_t first = std::uint32_t(block) * moves_per_box;
+    const auto last = std::uint32_t(std::min(count, std::size_t(first) + moves_per_box));
     for (const Drive& d : drives(print, machine, *result.time, first, last)) {
       if (!d.lays) continue;
       const Vec2 offset = nozzle_offset_mm(machine, d.feeds);

@@ -11,8 +11,8 @@ namespace cleancolor {
 namespace {
 
 constexpr double height_px = 300, left = 58, right = 18, top = 40, bottom = 44;
-constexpr double text_height = 12;
-constexpr double least_mm3 = 0.001;
+constexpr double label_height = 12;
+constexpr double least_axis_mm3 = 0.001;
 
 /// From data to pixels.
 struct Axis {
@@ -28,17 +28,17 @@ void draw_axes(Canvas& canvas, const Axis& x, const Axis& y) {
     const double value = i * y.step();
     const std::string text = fmt::format("{:g}", value);
     canvas.line(std::vector<Vec2>{{x.begin, y.at(value)}, {x.end, y.at(value)}}, 1, i == 0 ? pale_ink : grid_ink);
-    canvas.text({x.begin - 8 - text_width(text, text_height), y.at(value) - 4}, text_height, text, pale_ink);
+    canvas.text({x.begin - 8 - text_width(text, label_height), y.at(value) - 4}, label_height, text, pale_ink);
   }
   for (int i = 0; i * x.step() <= x.most * (1 + 1e-9); ++i) {
     const double value = i * x.step();
     const std::string text = fmt::format("{:g}", value);
     canvas.line(std::vector<Vec2>{{x.at(value), y.begin}, {x.at(value), y.begin - 4}}, 1, pale_ink);
-    canvas.text({x.at(value) - text_width(text, text_height) / 2, y.begin - 18}, text_height, text, pale_ink);
+    canvas.text({x.at(value) - text_width(text, label_height) / 2, y.begin - 18}, label_height, text, pale_ink);
   }
   const std::string name = "height z, mm";
-  canvas.text({(x.begin + x.end - text_width(name, text_height)) / 2, 8}, text_height, name, pale_ink);
-  canvas.text({8, height_px - 20}, text_height, "mm3 in the layer", pale_ink);
+  canvas.text({(x.begin + x.end - text_width(name, label_height)) / 2, 8}, label_height, name, pale_ink);
+  canvas.text({8, height_px - 20}, label_height, "mm3 in the layer", pale_ink);
 }
 
 /// Names beside their lines, from the right; those that find no room are left out.
@@ -46,16 +46,16 @@ void draw_legend(Canvas& canvas, std::span<const HeightCurve> curves, double wid
   double x = width_px - right;
   for (std::size_t i = curves.size(); i-- > 0;) {
     const std::string name = printable(curves[i].name);
-    x -= text_width(name, text_height);
+    x -= text_width(name, label_height);
     if (x < 150) return;
-    canvas.text({x, height_px - 20}, text_height, name, ink);
+    canvas.text({x, height_px - 20}, label_height, name, ink);
     canvas.line(std::vector<Vec2>{{x - 24, height_px - 16}, {x - 6, height_px - 16}}, 3, curves[i].colour);
     x -= 44;
   }
 }
 
 bool has_volume(const HeightCurve& curve) {
-  return std::ranges::any_of(curve.points, [](Vec2 p) { return p.y >= least_mm3; });
+  return std::ranges::any_of(curve.points, [](Vec2 p) { return p.y >= least_axis_mm3; });
 }
 
 }  // namespace

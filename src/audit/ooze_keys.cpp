@@ -9,7 +9,7 @@ namespace {
 using P = const OozeParameters&;
 using Q = OozeParameters&;
 
-constexpr std::array<OozeKey, 8> table = {{
+constexpr std::array<OozeKey, 8> ooze_key_table = {{
     {.name = "volume",
      .field_name = "volume_mm3",
      .unit = "mm3",
@@ -67,12 +67,12 @@ constexpr std::array<OozeKey, 8> table = {{
 }  // namespace
 
 std::span<const OozeKey> ooze_keys() {
-  return table;
+  return ooze_key_table;
 }
 
 const OozeKey* find_ooze_key(std::string_view name) {
-  const auto found = std::ranges::find(table, name, &OozeKey::name);
-  return found == table.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(ooze_key_table, name, &OozeKey::name);
+  return found == ooze_key_table.end() ? nullptr : &*found;
 }
 
 }  // namespace cleancolor

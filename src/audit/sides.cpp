@@ -168,7 +168,7 @@ std::map<std::uint32_t, ColouredMesh> coloured(const VoxelSurface& surface, cons
 }
 
 /// High enough that the part fills the width of its widest side.
-int height_px(const VoxelSurface& surface, int width_px) {
+int fitting_height_px(const VoxelSurface& surface, int width_px) {
   double wide = 1e-3, high = 1e-3;
   for (const Vec2 away : {Vec2{0, 1}, Vec2{1, 0}}) {
     Box<Vec2> box;
@@ -194,7 +194,7 @@ std::vector<Side> sides(const GcodePrint& print, const AuditMachine& machine, co
   for (const auto& [rgb, mesh] : meshes) bodies.push_back({mesh.vertices, mesh.triangles, rgb});
 
   View view{.width_px = width_px,
-            .height_px = height_px(surface, width_px),
+            .height_px = fitting_height_px(surface, width_px),
             .azimuth_rad = 0,
             .elevation_rad = elevation_rad,
             .transparent = false};

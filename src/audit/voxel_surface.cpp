@@ -6,15 +6,15 @@
 namespace cleancolor {
 namespace {
 
-struct Cell {
+struct SurfaceCell {
   int x = 0, y = 0, z = 0;
 };
 
 /// The way from air to a neighbour of plastic, and the corners of the face between them, as steps from the corner of
 /// the air's voxel with the least coordinates; counterclockwise seen from the air.
 struct Side {
-  Cell to;
-  std::array<Cell, 4> corners;
+  SurfaceCell to;
+  std::array<SurfaceCell, 4> corners;
 };
 constexpr std::array<Side, 6> sides_of_a_voxel = {{
     {{-1, 0, 0}, {{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}}},
@@ -30,7 +30,7 @@ class Vertices {
  public:
   Vertices(const Voxels& voxels, std::vector<Vec3>& at_mm) : voxels_(voxels), at_mm_(at_mm) {}
 
-  std::uint32_t at(Cell c) {
+  std::uint32_t at(SurfaceCell c) {
     const auto [found, added] = index_.try_emplace(voxels_.index(c.x, c.y, c.z), std::uint32_t(at_mm_.size()));
     if (added) at_mm_.push_back(voxels_.origin_mm + Vec3{double(c.x), double(c.y), double(c.z)} * voxels_.size_mm);
     return found->second;
@@ -66,15 +66,15 @@ VoxelSurface voxel_surface(const Voxels& voxels, int smoothing) {
     for (std::uint64_t bits = voxels.surface(std::int64_t(w)); bits != 0; bits &= bits - 1) {
       const std::int64_t i = std::int64_t(w) * 64 + std::countr_zero(bits);
       const std::int64_t in_plane = i % voxels.plane_bits;
-      const Cell c{int(in_plane % voxels.row_bits), int(in_plane / voxels.row_bits), int(i / voxels.plane_bits)};
+      const SurfaceCell c{int(in_plane % voxels.row_bits), int(in_plane / voxels.row_bits), int(i / voxels.plane_bits)};
       for (const Side& side : sides_of_a_voxel) {
-        const Cell n{c.x + side.to.x, c.y + side.to.y, c.z + side.to.z};
+        const SurfaceCell n{c.x + side.to.x, c.y + side.to.y, c.z + side.to.z};
         if (!voxels.has(n.x, n.y, n.z)) continue;
         const std::int64_t neighbour = voxels.index(n.x, n.y, n.z);
         if (!bit(voxels.solid, neighbour)) continue;
         std::array<std::uint32_t, 4> quad{};
         for (std::size_t k = 0; k < 4; ++k) {
-          const Cell d = side.corners[k];
+          const SurfaceCell d = side.corners[k];
           quad[k] = vertices.at({c.x + d.x, c.y + d.y, c.z + d.z});
         }
         surface.quads.push_back(quad);

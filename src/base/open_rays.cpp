@@ -228,7 +228,7 @@ OpenRays::Near OpenRays::near(Vec3 p) const {
   return near;
 }
 
-OpenRays::OpenRays(Voxels voxels, double reach_mm, int threads, const Progress& progress, const View& view)
+OpenRays::OpenRays(Voxels voxels, double reach_mm, int threads, const Progress& progress, const ViewBias& view)
     : voxels_(std::move(voxels)), surface_(voxels_.solid.size()), first_(voxels_.solid.size()) {
   std::vector<SurfaceWord> found;
   std::uint32_t values = 0;

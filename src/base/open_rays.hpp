@@ -22,7 +22,7 @@
 namespace cleancolor {
 
 /// Somebody who looks at the part from far away, level with it.
-struct View {
+struct ViewBias {
   Vec2 from;          // direction from the part to whoever looks
   double weight = 0;  // rays that lead away from there count 1 - weight, the others 1; in [0, 1]
 };
@@ -32,7 +32,7 @@ class OpenRays {
   /// view.weight 0: rays count the same in all directions. Same values for any number of threads.  Requires: voxels
   /// with reach_mm of air behind rows and planes. Throws Error where progress is interrupted. Cost: about 20 ms of CPU
   /// for 10^6 voxels; memory: up to 60 MB while it works.
-  OpenRays(Voxels voxels, double reach_mm, int threads, const Progress& progress = {}, const View& view = {});
+  OpenRays(Voxels voxels, double reach_mm, int threads, const Progress& progress = {}, const ViewBias& view = {});
 
   /// The mean over the surface within 1.75 voxels of the point; deep inside the part 0, far away from it 1.
   /// Cost: about 0.2 us.

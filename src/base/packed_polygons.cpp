@@ -1,14 +1,14 @@
 #include "base/packed_polygons.hpp"
 
-#include <cassert>
+#include <algorithm>
 #include <limits>
 
 namespace cleancolor {
 namespace {
 
 std::int32_t word(std::int64_t nm) {
-  assert(nm >= std::numeric_limits<std::int32_t>::min() && nm <= std::numeric_limits<std::int32_t>::max());
-  return std::int32_t(nm);
+  using Word = std::numeric_limits<std::int32_t>;
+  return std::int32_t(std::clamp(nm, std::int64_t(Word::min()), std::int64_t(Word::max())));
 }
 
 }  // namespace

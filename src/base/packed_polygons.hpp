@@ -21,7 +21,8 @@ namespace cleancolor {
 class PackedPolygons {
  public:
   PackedPolygons() = default;
-  /// Requires: within +-2147 mm, twice what Polygons promise to be exact in.
+  /// Exact within +-2147 mm, twice what Polygons promise to be exact in; what lies further out, as damaged files have
+  /// it, is moved to that border.
   PackedPolygons(const Polygons& region);
 
   /// Cost: about 1 ns a point.

@@ -28,6 +28,10 @@ inline Point to_nm(Vec2 p) {
 inline Vec2 to_mm(Point p) {
   return {double(p.X) * mm_per_nm, double(p.Y) * mm_per_nm};
 }
+
+inline void append(Polygons& to, const Polygons& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
 std::vector<Vec2> to_mm(const Ring& ring);
 
 /// One connected piece: an outline (counterclockwise) and its holes (clockwise).

@@ -27,7 +27,7 @@ Box<Vec2> with_air(Box<Vec2> box) {
   return {box.min - Vec2{air_mm, air_mm}, box.max + Vec2{air_mm, air_mm}};
 }
 
-bool is_foreign(LayerMap::Cell cell, int nozzle) {
+bool is_visible_foreign(LayerMap::Cell cell, int nozzle) {
   return cell.extruder != LayerMap::air && cell.extruder != nozzle && cell.visibility > 0;
 }
 
@@ -36,7 +36,7 @@ void add_foreign_pieces(std::vector<Line>& pieces, const LayerMap& map, Vec2 a, 
   const int steps = int(distance(a, b) / sample_mm) + 1;
   bool goes_on = false;
   for (int i = 0; i < steps; ++i) {
-    const bool is_over = is_foreign(map.at(lerp(a, b, (i + 0.5) / steps)), nozzle);
+    const bool is_over = is_visible_foreign(map.at(lerp(a, b, (i + 0.5) / steps)), nozzle);
     const Vec2 from = lerp(a, b, double(i) / steps), to = lerp(a, b, double(i + 1) / steps);
     if (is_over && goes_on) pieces.back().back() = to;
     if (is_over && !goes_on) pieces.push_back({from, to});
@@ -185,7 +185,7 @@ std::vector<Line> barred_places(const Panel& panel, const PlanScenery& s) {
   for (const int n : s.plan.hanging ? s.plan.used : printing_in(s))
     for (int y = 0; y < rows; ++y)
       for (int x = 0, end = 0; x < columns; x = end + 1) {
-        const auto foreign = [&](int i) { return is_foreign(map.at(view.min + Vec2{i + 0.5, y + 0.5} * step), n); };
+        const auto foreign = [&](int i) { return is_visible_foreign(map.at(view.min + Vec2{i + 0.5, y + 0.5} * step), n); };
         for (end = x; end < columns && foreign(end);) ++end;
         if (end == x) continue;
         const Vec2 a = view.min + Vec2{double(x), double(y)} * step - nozzle_offset_mm(s.machine, n);

@@ -8,26 +8,26 @@
 namespace cleancolor {
 namespace {
 
-constexpr double same_width_mm = 0.02;
+constexpr double like_width_mm = 0.02;
 constexpr double seam_gap_mm = 1;  // walls that end so near to their start are closed
 constexpr int corners_an_end = 8;  // of a stadium's half circle
 constexpr double air_mm = 1;       // around all, so that the outside is one piece
 
-bool is_outer(Role role) {
+bool may_be_outer(Role role) {
   return role == Role::external_perimeter || role == Role::overhang_perimeter || role == Role::unknown;
 }
 
 /// Roads one after the other, as one line.
-struct Line {
+struct RoadLine {
   std::vector<Vec2> points_mm;
   double width_mm = 0;
 };
 
-std::vector<Line> lines_of(std::span<const LaidRoad> roads) {
-  std::vector<Line> lines;
+std::vector<RoadLine> lines_of(std::span<const LaidRoad> roads) {
+  std::vector<RoadLine> lines;
   for (const LaidRoad& r : roads) {
     const bool goes_on = !lines.empty() && lines.back().points_mm.back() == r.from_mm &&
-                         std::abs(lines.back().width_mm - r.width_mm) < same_width_mm;
+                         std::abs(lines.back().width_mm - r.width_mm) < like_width_mm;
     if (!goes_on) lines.push_back({{r.from_mm}, r.width_mm});
     lines.back().points_mm.push_back(r.to_mm);
   }
@@ -35,16 +35,16 @@ std::vector<Line> lines_of(std::span<const LaidRoad> roads) {
 }
 
 /// Seams: the plastic flows together there, whatever gap the file leaves.
-void close_seams(std::vector<Line>& lines) {
-  for (Line& line : lines) {
+void close_seams(std::vector<RoadLine>& lines) {
+  for (RoadLine& line : lines) {
     const double gap = distance(line.points_mm.front(), line.points_mm.back());
     if (line.points_mm.size() > 3 && gap > 0 && gap <= seam_gap_mm) line.points_mm.push_back(line.points_mm.front());
   }
 }
 
-Polygons plastic_of(const std::vector<Line>& lines, double detail_mm) {
+Polygons plastic_of(const std::vector<RoadLine>& lines, double detail_mm) {
   Polygons rings;
-  for (const Line& line : lines) {
+  for (const RoadLine& line : lines) {
     const std::vector<Vec2> points = simplified(line.points_mm, detail_mm);
     for (std::size_t i = 1; i < points.size(); ++i) rings.push_back(stadium(points[i - 1], points[i], line.width_mm));
   }
@@ -97,8 +97,8 @@ Polygons plastic(std::span<const LaidRoad> roads, double detail_mm) {
 Polygons region(std::span<const LaidRoad> roads, int nozzle, double detail_mm) {
   std::vector<LaidRoad> outer, inner;
   for (const LaidRoad& r : roads)
-    if (r.nozzle == nozzle && !is_auxiliary(r.role)) (is_outer(r.role) ? outer : inner).push_back(r);
-  std::vector<Line> lines = lines_of(outer);
+    if (r.nozzle == nozzle && !is_auxiliary(r.role)) (may_be_outer(r.role) ? outer : inner).push_back(r);
+  std::vector<RoadLine> lines = lines_of(outer);
   close_seams(lines);
   const Polygons walls = plastic_of(lines, detail_mm);
   if (walls.empty()) return plastic(inner, detail_mm);

@@ -10,7 +10,7 @@
 namespace cleancolor {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string toml_quoted(std::string_view text) {
   const bool has_lines = text.find('\n') != text.npos;
   // A new line directly after the opening quotes is not part of the text.
   std::string toml = has_lines ? "\"\"\"\n" : "\"";
@@ -42,11 +42,11 @@ std::string toml_of(const Option& option, const OptionValue& value) {
     case OptionKind::percent:
     case OptionKind::length_or_share: {
       const std::string text = value_text(option, value);
-      return text.ends_with('%') ? quoted(text) : text;
+      return text.ends_with('%') ? toml_quoted(text) : text;
     }
     case OptionKind::text:
     case OptionKind::choice:
-      return quoted(value_text(option, value));
+      return toml_quoted(value_text(option, value));
     case OptionKind::point:
       return point_of(std::get<Vec2>(value));
     case OptionKind::polygon: {

@@ -5,8 +5,8 @@
 namespace cleancolor {
 namespace {
 
-constexpr double step_mm = 0.25;
-constexpr auto nobody = std::size_t(-1);
+constexpr double sample_mm = 0.25;
+constexpr auto none_prints = std::size_t(-1);
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void ForecastWalk::travel(std::span<const Vec2> way, Vec2 start, Vec2 offset) {
   way_mm += distance(at, start);
   const double s_mm = hop_.seconds(way_mm) / std::max(way_mm, 1e-6);
   const auto to = [&](Vec2 p) {
-    go(*carriage_, p, s_mm * distance(*carriage_, p), nobody);
+    go(*carriage_, p, s_mm * distance(*carriage_, p), none_prints);
     carriage_ = p;
   };
   for (const Vec2 p : way) to(p - offset);
@@ -59,7 +59,7 @@ void ForecastWalk::travel(std::span<const Vec2> way, Vec2 start, Vec2 offset) {
 
 /// All nozzles but the one at `printing` ooze. Positions are the carriage's.
 void ForecastWalk::go(Vec2 from, Vec2 to, double seconds, std::size_t printing) {
-  const int steps = int(distance(from, to) / step_mm) + 1;
+  const int steps = int(distance(from, to) / sample_mm) + 1;
   const double left = model_->left(seconds / steps);
   for (int i = 0; i < steps; ++i) {
     const Vec2 p = lerp(from, to, (i + 0.5) / steps);

@@ -8,7 +8,7 @@
 namespace cleancolor {
 namespace {
 
-constexpr double most_cells = 4e6;
+constexpr double most_map_cells = 4e6;
 constexpr double block_mm = 0.5;     // visibility changes little over it
 constexpr double detail_mm = 0.03;   // of outlines before they are offset
 constexpr double overlap_mm = 0.05;  // a border that the layer above lies this close to is covered
@@ -22,7 +22,7 @@ LayerMap::LayerMap(const LayerScene& scene, std::span<const Path> walls, const S
     for (const Vec2 p : wall.points) box_.add(p);
   if (box_.empty()) return;
   const Vec2 size = box_.size();
-  while ((size.x / cell_mm + 2) * (size.y / cell_mm + 2) > most_cells) cell_mm *= 1.1;
+  while ((size.x / cell_mm + 2) * (size.y / cell_mm + 2) > most_map_cells) cell_mm *= 1.1;
   per_mm_ = 1 / cell_mm;
   origin_ = box_.min - Vec2{cell_mm, cell_mm};
   columns_ = int(std::ceil(size.x / cell_mm)) + 2;

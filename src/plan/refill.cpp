@@ -11,11 +11,11 @@
 namespace cleancolor {
 namespace {
 
-constexpr double farthest_mm = 15;       // of the wall from where the outer wall begins
-constexpr double shortest_mm = 1.5;      // pass
+constexpr double farthest_wall_mm = 15;       // of the wall from where the outer wall begins
+constexpr double shortest_pass_mm = 1.5;      // pass
 constexpr double usual_area_mm2 = 0.06;  // by which the length of a pass is chosen
 constexpr double least_mm = 20;          // of way that a refill must be worth
-constexpr double least_mm3 = 0.005;      // that can be pushed
+constexpr double least_pushed_mm3 = 0.005;      // that can be pushed
 
 struct OnWall {
   const Path* wall = nullptr;
@@ -25,7 +25,7 @@ struct OnWall {
 
 OnWall nearest(const std::vector<const Path*>& walls, Vec2 p) {
   OnWall best;
-  double least = farthest_mm * farthest_mm;
+  double least = farthest_wall_mm * farthest_wall_mm;
   for (const Path* wall : walls)
     for (std::size_t i = 0; i < wall->segments(); ++i) {
       const Vec2 q = nearest_on_segment(wall->points[i], wall->points[(i + 1) % wall->points.size()], p);
@@ -79,7 +79,7 @@ class Refills {
     std::vector<Vec2> way{before.end() - offset_of(before.extruder) + offset_of(path.extruder)};
     way.insert(way.end(), path.travel.begin(), path.travel.end());
     way.push_back(path.start());
-    const auto room = room_.longest_pass(way, shortest_mm);
+    const auto room = room_.longest_pass(way, shortest_pass_mm);
     if (!room) return std::nullopt;
     auto refill = laid(*room, options_.volume_mm3, path);
     if (!refill) return std::nullopt;
@@ -97,8 +97,8 @@ class Refills {
     const OnWall place = nearest(walls_, path.start());
     if (place.wall == nullptr) return std::nullopt;
 
-    const double wanted_mm = std::max(shortest_mm, missing_mm3(hop_mm + farthest_mm) / usual_area_mm2);
-    const auto room = room_.longest_pass(along(place, wanted_mm), shortest_mm);
+    const double wanted_mm = std::max(shortest_pass_mm, missing_mm3(hop_mm + farthest_wall_mm) / usual_area_mm2);
+    const auto room = room_.longest_pass(along(place, wanted_mm), shortest_pass_mm);
     if (!room) return std::nullopt;
     const Vec2 offset = offset_of(path.extruder);
     const PlannedWay there =
@@ -147,7 +147,7 @@ class Refills {
   /// The pass as a path, with so much plastic, or what there is room for.
   std::optional<Path> laid(const WallRoom::Pass& pass, double mm3, const Path& next) {
     mm3 = std::min(mm3, pass.most_area_mm2 * pass.length_mm);
-    if (mm3 < least_mm3) return std::nullopt;
+    if (mm3 < least_pushed_mm3) return std::nullopt;
     const auto& diameters = options_.filament_diameter_mm;
     const Refill push{.volume_mm3 = mm3,
                       .feed_mm_s = options_.feed_mm_s,

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double on_wall_mm2 = 0.06;  // of plastic beside the wall's own that sticks to it
 constexpr double widest = 2;          // road, in widths of the wall's
-constexpr double step_mm = 0.5;
+constexpr double check_step_mm = 0.5;
 constexpr double least_share = 0.5;   // of the room that must be left
 constexpr double least_cosine = 0.7;  // of the angle between the way and the wall
 
@@ -77,7 +77,7 @@ std::vector<WallRoom::Step> WallRoom::steps(std::span<const Vec2> way_mm) const 
   for (std::size_t i = 0; i + 1 < way_mm.size(); ++i) {
     const double length = distance(way_mm[i], way_mm[i + 1]);
     if (length < 1e-9) continue;
-    const int count = int(std::ceil(length / step_mm));
+    const int count = int(std::ceil(length / check_step_mm));
     for (int k = 0; k < count; ++k) {
       Step step{.segment = i,
                 .begin_mm = lerp(way_mm[i], way_mm[i + 1], double(k) / count),

@@ -20,10 +20,6 @@ Polygons shrunk_where_room(const Polygons& region, double distance_mm, double ro
   return offset(offset(region, -(distance_mm + room_mm / 2 - hair_mm)), room_mm / 2 - hair_mm);
 }
 
-void append(Polygons& to, const Polygons& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
 /// All loops of an island, outermost first; gaps collects what lies between two loops and in neither.
 struct Nest {
   std::vector<Polygons> loops;

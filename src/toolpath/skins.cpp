@@ -10,10 +10,6 @@ constexpr double hold_mm = 3;
 // Half the width of what is left over from two borders that should be one.
 constexpr double sliver_mm = 0.01;
 
-void append(Polygons& to, const Polygons& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
 /// Strips narrower than a few lines are widened, so that their lines end on something solid.
 Polygons widened(const Polygons& solid, const Polygons& fill, double spacing_mm) {
   const Polygons narrow = difference(solid, opened(solid, 3 * spacing_mm));

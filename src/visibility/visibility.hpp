@@ -28,7 +28,7 @@ struct SurfaceVisibilityOptions {
   double voxel_mm = 0.5;  // larger where the part would need too many
   double reach_mm = 25;
   int threads = 1;
-  View view = {};
+  ViewBias view = {};
   std::span<const PackedPolygons> opaque =
       {};  // of each layer: where light does not pass; empty: below() is not asked for
 };

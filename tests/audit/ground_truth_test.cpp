@@ -14,7 +14,7 @@ using namespace cleancolor;
 
 namespace {
 
-const std::vector<Vec2> two{{0, 0}, {10, 0}};
+const std::vector<Vec2> two_nozzles{{0, 0}, {10, 0}};
 
 /// W; then straight to A: the tip of T1 goes from (30, 10) to (15, 5), over W where it is at x = 20.
 const double straight_mm = std::hypot(15, 5), straight_s = straight_mm / travelling_mm_s;
@@ -34,14 +34,14 @@ Drawing& wall_c(Drawing& d, bool quiet = false) {
   return d.tool(1, quiet).wall().road({60, 0}, {60, 5});
 }
 
-Drawing started(const AuditMachine& machine = drawn_machine(two), bool relative_e = true) {
+Drawing started(const AuditMachine& machine = drawn_machine(two_nozzles), bool relative_e = true) {
   Drawing d(machine, relative_e);
   d.layer(0).tool(0);
   return d;
 }
 
 /// W, straight to A, C.
-Drawing straight_print(const AuditMachine& machine = drawn_machine(two), bool relative_e = true, bool quiet = false) {
+Drawing straight_print(const AuditMachine& machine = drawn_machine(two_nozzles), bool relative_e = true, bool quiet = false) {
   Drawing d = started(machine, relative_e);
   wall_w(d);
   wall_a(d);
@@ -220,15 +220,15 @@ TEST(GroundTruth, ZippersAreBeginsAndEndsOfWalls) {
 TEST(GroundTruth, OffsetsInSlicerAndInFirmwareGiveTheSame) {
   const Figures slicer = worst(straight_print());
   // Not Marlin, or T1 S1: the carriage stays at the change.
-  expect_same(slicer, worst(straight_print(drawn_machine(two, OffsetsIn::firmware))));
-  Drawing quiet = straight_print(drawn_machine(two, OffsetsIn::firmware), true, true);
+  expect_same(slicer, worst(straight_print(drawn_machine(two_nozzles, OffsetsIn::firmware))));
+  Drawing quiet = straight_print(drawn_machine(two_nozzles, OffsetsIn::firmware), true, true);
   expect_same(slicer, worst(quiet.marlin()));
 }
 
 // Bare T1: Marlin drives the tip of T1 from (24, 5) to (14, 5), where T0 was. On the way it crosses W (0.4 mm), and the
 // last 0.2 mm are the round end of A. From there to C, (60, 0), it leaves A again (0.2 mm) and crosses W once more.
 TEST(GroundTruth, OnMarlinABareToolChangeAddsAJump) {
-  Drawing bare = straight_print(drawn_machine(two, OffsetsIn::firmware));
+  Drawing bare = straight_print(drawn_machine(two_nozzles, OffsetsIn::firmware));
   const Figures f = worst(bare.marlin());
   const double back_mm = 0.4 * std::hypot(46, 5) / 46;
   EXPECT_NEAR(f.smear_exposure_travel, straight_chord_mm + 0.4 + 0.2 + 0.2 + back_mm, 0.002);
@@ -236,12 +236,12 @@ TEST(GroundTruth, OnMarlinABareToolChangeAddsAJump) {
 }
 
 TEST(GroundTruth, RelativeAndAbsoluteEGiveTheSame) {
-  expect_same(worst(straight_print(drawn_machine(two), true)), worst(straight_print(drawn_machine(two), false)));
+  expect_same(worst(straight_print(drawn_machine(two_nozzles), true)), worst(straight_print(drawn_machine(two_nozzles), false)));
 }
 
 TEST(GroundTruth, NozzlesThatAreLiftedOrParkedTouchNothingWhileIdle) {
   for (const IdleNozzle idle : {IdleNozzle::lifted, IdleNozzle::parked, IdleNozzle::docked}) {
-    AuditMachine machine = drawn_machine(two);
+    AuditMachine machine = drawn_machine(two_nozzles);
     machine.idle_nozzle = idle;
     // T1 itself then travels over W, from (60, 5) to (0, 5).
     Drawing d = straight_print(machine);

@@ -27,11 +27,6 @@ std::string two_blocks(double shift, const std::string& head = "", const std::st
   return text + tail;
 }
 
-struct Warned {
-  std::vector<std::string> warnings;
-  Progress progress{.warn = [this](const std::string& w) { warnings.push_back(w); }};
-};
-
 const std::vector<Vec2> offsets = {{0, 0}, {33, 0}};
 
 TEST(AuditMachine, TakesWhatTheUserSays) {

@@ -65,12 +65,7 @@ const std::string apart = R"(
   1 1 . . 0 0
   1 1 . . 0 0 )";
 
-const std::vector<Vec2> offsets = {{0, 0}, {33, 0}};
-
-struct Warned {
-  std::vector<std::string> warnings;
-  Progress progress{.warn = [this](const std::string& w) { warnings.push_back(w); }};
-};
+const std::vector<Vec2> apart_offsets = {{0, 0}, {33, 0}};
 
 TEST(OffsetFit, CountsCellsBesideAndOver) {
   // One line of 10 mm each, 41 cells of 0.25 mm along it: beside each other 0.5 mm apart, then the one over the other.
@@ -86,34 +81,34 @@ TEST(OffsetFit, CountsCellsBesideAndOver) {
 }
 
 TEST(OffsetFit, AuxiliaryPlasticDoesNotCount) {
-  const GcodePrint print = print_of({jigsaw}, offsets, "Wipe tower");
-  const OffsetFit fit = offset_fit(print, offsets);
+  const GcodePrint print = print_of({jigsaw}, apart_offsets, "Wipe tower");
+  const OffsetFit fit = offset_fit(print, apart_offsets);
   EXPECT_EQ(fit.touching + fit.overlapping + fit.together, 0);
-  EXPECT_FALSE(guessed_offsets_in(print, offsets));
+  EXPECT_FALSE(guessed_offsets_in(print, apart_offsets));
 }
 
 TEST(GuessedOffsetsIn, IsTheFormInWhichTheColoursFit) {
-  EXPECT_EQ(guessed_offsets_in(print_of({jigsaw}, offsets), offsets), OffsetsIn::slicer);
-  EXPECT_EQ(guessed_offsets_in(print_of({jigsaw}, {{0, 0}, {0, 0}}), offsets), OffsetsIn::firmware);
+  EXPECT_EQ(guessed_offsets_in(print_of({jigsaw}, apart_offsets), apart_offsets), OffsetsIn::slicer);
+  EXPECT_EQ(guessed_offsets_in(print_of({jigsaw}, {{0, 0}, {0, 0}}), apart_offsets), OffsetsIn::firmware);
 }
 
 TEST(GuessedOffsetsIn, IsTheFormInWhichColoursThatNowhereMeetAreAmongEachOther) {
-  EXPECT_EQ(guessed_offsets_in(print_of({apart}, offsets), offsets), OffsetsIn::slicer);
-  EXPECT_EQ(guessed_offsets_in(print_of({apart}, {{0, 0}, {0, 0}}), offsets), OffsetsIn::firmware);
+  EXPECT_EQ(guessed_offsets_in(print_of({apart}, apart_offsets), apart_offsets), OffsetsIn::slicer);
+  EXPECT_EQ(guessed_offsets_in(print_of({apart}, {{0, 0}, {0, 0}}), apart_offsets), OffsetsIn::firmware);
 }
 
 TEST(GuessedOffsetsIn, IsTheFormInWhichOneColourStandsOnTheOther) {
   const std::vector<std::string> stack = {"0 0 0 0", "1 1 1 1"};
-  EXPECT_EQ(guessed_offsets_in(print_of(stack, offsets), offsets), OffsetsIn::slicer);
-  EXPECT_EQ(guessed_offsets_in(print_of(stack, {{0, 0}, {0, 0}}), offsets), OffsetsIn::firmware);
+  EXPECT_EQ(guessed_offsets_in(print_of(stack, apart_offsets), apart_offsets), OffsetsIn::slicer);
+  EXPECT_EQ(guessed_offsets_in(print_of(stack, {{0, 0}, {0, 0}}), apart_offsets), OffsetsIn::firmware);
 }
 
 TEST(GuessedOffsetsIn, IsNothingWhereTheFormsAreAlike) {
-  EXPECT_FALSE(guessed_offsets_in(print_of({jigsaw}, offsets), {{0, 0}, {0, 0}}));
+  EXPECT_FALSE(guessed_offsets_in(print_of({jigsaw}, apart_offsets), {{0, 0}, {0, 0}}));
   // Two parts side by side, far from each other in both forms.
   const GcodePrint print =
       read_gcode("M83\nG1 Z0.3 F6000\nG1 X0 Y0\nG1 X10 Y0 E1\nT1\nG1 X100 Y90\nG1 X110 Y90 E1\n", "a.gcode");
-  EXPECT_FALSE(guessed_offsets_in(print, offsets));
+  EXPECT_FALSE(guessed_offsets_in(print, apart_offsets));
 }
 
 TEST(GuessedOffsets, AreWhereAJigsawFits) {
@@ -142,9 +137,9 @@ TEST(GuessedOffsets, AreFoundForEachNozzle) {
 
 TEST(GuessedOffsets, AreNotMadeUp) {
   EXPECT_TRUE(guessed_offsets_mm(print_of({jigsaw}, {{0, 0}, {0, 0}})).empty()) << "fits as it is";
-  EXPECT_TRUE(guessed_offsets_mm(print_of({apart}, offsets)).empty()) << "the colours meet nowhere";
-  EXPECT_TRUE(guessed_offsets_mm(print_of({"0 0 0 0 1 1 1 1"}, offsets)).empty()) << "fits on either side";
-  EXPECT_TRUE(guessed_offsets_mm(print_of({"0 0 0 0", "1 1 1 1"}, offsets)).empty()) << "no layer has both";
+  EXPECT_TRUE(guessed_offsets_mm(print_of({apart}, apart_offsets)).empty()) << "the colours meet nowhere";
+  EXPECT_TRUE(guessed_offsets_mm(print_of({"0 0 0 0 1 1 1 1"}, apart_offsets)).empty()) << "fits on either side";
+  EXPECT_TRUE(guessed_offsets_mm(print_of({"0 0 0 0", "1 1 1 1"}, apart_offsets)).empty()) << "no layer has both";
 }
 
 TEST(GuessedOffsets, OfPartsTooLargeToDrawAreNone) {

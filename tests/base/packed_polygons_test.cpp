@@ -26,6 +26,12 @@ TEST(PackedPolygons, AreEqualWhereTheRingsAre) {
   EXPECT_NE(PackedPolygons(two), PackedPolygons(one));
 }
 
+TEST(PackedPolygons, MoveWhatLiesTooFarAwayToTheBorder) {
+  const Polygons far{{{-9'000'000'000, 5}, {9'000'000'000, 5}, {0, 9}}};
+  const Polygons kept = PackedPolygons(far);
+  EXPECT_EQ(kept, (Polygons{{{-2'147'483'648, 5}, {2'147'483'647, 5}, {0, 9}}}));
+}
+
 TEST(PackedPolygons, OfAllLayersHaveTheBoxOfWhatIsNotEmpty) {
   const std::vector<PackedPolygons> layers =
       packed(std::vector{rectangle({0, 0}, {1, 1}), {}, rectangle({5, -2}, {6, 0})});

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command_line.hpp"
-#include "support_errors.hpp"
+#include "outcome.hpp"
 #include "viewer/page.hpp"
 
 namespace cleancolor {
@@ -132,19 +131,8 @@ TEST(AuditArguments, AreHelpedWithEveryFigureAndKey) {
     EXPECT_NE(help.find(part), help.npos) << part;
 }
 
-struct Outcome {
-  int exit_code;
-  std::string out;
-  std::string err;
-};
-
-// arguments: as in a shell, relative to the folder.
-Outcome run(const TestFolder& folder, const std::string& arguments, const std::string& before = "") {
-  const std::string out = folder.path("stdout"), err = folder.path("stderr");
-  const std::string command = fmt::format("cd '{}' && {} '{}' audit {} > '{}' 2> '{}'", folder.path("."), before,
-                                          CLEANCOLOR_PROGRAM, arguments, out, err);
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(out), file_text(err)};
+Outcome audit_run(const TestFolder& folder, const std::string& arguments, const std::string& before = "") {
+  return run(folder, "audit " + arguments, before);
 }
 
 /// Two walls 40 mm long, 0.4 mm beside each other, one of each colour. The nozzles are 33 mm apart, so the tip of the
@@ -165,7 +153,7 @@ constexpr const char* offsets = " --nozzle-offset 0x0,33x0 --offsets-in slicer "
 TEST(AuditProgram, PrintsFiguresAndTheVerdict) {
   const TestFolder folder;
   folder.file("a.gcode", two_walls());
-  const Outcome r = run(folder, std::string("a.gcode") + offsets);
+  const Outcome r = audit_run(folder, std::string("a.gcode") + offsets);
   EXPECT_EQ(r.exit_code, exit_done) << r.err;
   for (const char* part : {"PrusaSlicer 2.5.0", "smear_volume  ", "worst places", "unknown commands: M12345 (1)",
                            "\nworst: smears: ", "T1 at 33,0 mm, by --nozzle-offset"})
@@ -175,7 +163,7 @@ TEST(AuditProgram, PrintsFiguresAndTheVerdict) {
 TEST(AuditProgram, PrintsJsonAloneWhereAskedFor) {
   const TestFolder folder;
   folder.file("a.gcode", two_walls());
-  const Outcome r = run(folder, std::string("a.gcode --quiet --json -") + offsets);
+  const Outcome r = audit_run(folder, std::string("a.gcode --quiet --json -") + offsets);
   ASSERT_EQ(r.exit_code, exit_done) << r.err;
   const auto json = nlohmann::json::parse(r.out);
   EXPECT_EQ(json["schema"], 1);
@@ -190,7 +178,7 @@ TEST(AuditProgram, WritesEveryOutputTheSameForAnyNumberOfThreads) {
   folder.file("a.gcode", two_walls(40));
   for (const int threads : {1, 2, 5}) {
     const Outcome r =
-        run(folder, fmt::format("a.gcode --quiet --threads {0} -o {0}.html --json {0}.json --layer 2 --svg "
+        audit_run(folder, fmt::format("a.gcode --quiet --threads {0} -o {0}.html --json {0}.json --layer 2 --svg "
                                 "{0}.svg --png {0}.png {1}",
                                 threads, offsets));
     ASSERT_EQ(r.exit_code, exit_done) << r.err;
@@ -207,8 +195,8 @@ TEST(AuditProgram, WritesTheSceneIntoTheReportWhereItHasThePageAndNobodyForbidsI
   const TestFolder folder;
   folder.file("a.gcode", two_walls());
   const bool built = std::ranges::count(page_files(), "/report.js", &PageFile::path) == 1;
-  ASSERT_EQ(run(folder, std::string("a.gcode a.gcode --quiet -o with.html") + offsets).exit_code, exit_done);
-  ASSERT_EQ(run(folder, std::string("a.gcode a.gcode --quiet -o without.html --no-scene") + offsets).exit_code,
+  ASSERT_EQ(audit_run(folder, std::string("a.gcode a.gcode --quiet -o with.html") + offsets).exit_code, exit_done);
+  ASSERT_EQ(audit_run(folder, std::string("a.gcode a.gcode --quiet -o without.html --no-scene") + offsets).exit_code,
             exit_done);
   const std::string with = file_text(folder.path("with.html")), without = file_text(folder.path("without.html"));
   EXPECT_EQ(with.find("id=\"cleancolor-1-audit\"") != with.npos, built);
@@ -219,7 +207,7 @@ TEST(AuditProgram, WritesTheSceneIntoTheReportWhereItHasThePageAndNobodyForbidsI
 TEST(AuditProgram, ExitsWith1WhereAFigureIsOverItsLimit) {
   const TestFolder folder;
   folder.file("a.gcode", two_walls());
-  const Outcome over = run(folder, std::string("a.gcode --quiet --json a.json --fail-over wipes=0 --fail-over "
+  const Outcome over = audit_run(folder, std::string("a.gcode --quiet --json a.json --fail-over wipes=0 --fail-over "
                                                "smear_volume=0.001 --fail-over model.zippers=1") +
                                        offsets);
   EXPECT_EQ(over.exit_code, exit_exceeded);
@@ -228,7 +216,7 @@ TEST(AuditProgram, ExitsWith1WhereAFigureIsOverItsLimit) {
   EXPECT_NE(over.err.find("a.gcode: model.zippers is 12, more than the 1 allowed\n"), over.err.npos) << over.err;
   EXPECT_EQ(over.err.find("wipes"), over.err.npos) << over.err;
   EXPECT_TRUE(std::filesystem::exists(folder.path("a.json"))) << "reports are written all the same";
-  const Outcome under = run(folder, std::string("a.gcode --quiet --fail-over smear_volume=1000") + offsets);
+  const Outcome under = audit_run(folder, std::string("a.gcode --quiet --fail-over smear_volume=1000") + offsets);
   EXPECT_EQ(under.exit_code, exit_done) << under.err;
 }
 
@@ -236,10 +224,10 @@ TEST(AuditProgram, ComparesFiles) {
   const TestFolder folder;
   folder.file("a.gcode", two_walls(3));
   folder.file("b.gcode", two_walls(4));
-  const Outcome same = run(folder, std::string("a.gcode a.gcode --compare") + offsets);
+  const Outcome same = audit_run(folder, std::string("a.gcode a.gcode --compare") + offsets);
   EXPECT_EQ(same.exit_code, exit_done) << same.err;
   EXPECT_NE(same.out.find("The files print the same part"), same.out.npos) << same.out;
-  const Outcome other = run(folder, std::string("a.gcode b.gcode --compare -o ab.html") + offsets);
+  const Outcome other = audit_run(folder, std::string("a.gcode b.gcode --compare -o ab.html") + offsets);
   EXPECT_NE(other.out.find("The files do not print the same part: its plastic differs by 33.3 %"), other.out.npos)
       << other.out;
   EXPECT_NE(file_text(folder.path("ab.html")).find("<h1>b.gcode</h1>"), std::string::npos);
@@ -248,7 +236,7 @@ TEST(AuditProgram, ComparesFiles) {
 TEST(AuditProgram, ShowsVariantsOfTheAssumptions) {
   const TestFolder folder;
   folder.file("a.gcode", two_walls());
-  const Outcome r = run(folder, std::string("a.gcode --sensitivity") + offsets);
+  const Outcome r = audit_run(folder, std::string("a.gcode --sensitivity") + offsets);
   EXPECT_EQ(r.exit_code, exit_done) << r.err;
   for (const char* name : {"tireless", "printed_only", "own_does_not_empty", "touch_2mm"})
     EXPECT_NE(r.out.find(fmt::format("\n{} ", name)), r.out.npos) << name;
@@ -259,7 +247,7 @@ TEST(AuditProgram, KnowsPrintersByNameAndFile) {
   folder.file("a.gcode", two_walls());
   folder.file("mine.toml", "inherits = \"replicator-dual\"\n");
   for (const char* printer : {"replicator-dual", "mine.toml"}) {
-    const Outcome r = run(folder, fmt::format("a.gcode --offsets-in slicer --printer {}", printer));
+    const Outcome r = audit_run(folder, fmt::format("a.gcode --offsets-in slicer --printer {}", printer));
     EXPECT_EQ(r.exit_code, exit_done) << r.err;
     EXPECT_NE(r.out.find("T1 at 33,0 mm, by printer"), r.out.npos) << r.out;
   }
@@ -287,7 +275,7 @@ TEST(AuditProgram, RefusesWhatItCannotReadWithCode2AndTheLine) {
   folder.file("binary.bgcode", std::string("GCDE\1\0\0\0", 8));
   for (const Case& c : cases) {
     SCOPED_TRACE(c.arguments);
-    const Outcome r = run(folder, std::string(c.arguments) + " --json out.json");
+    const Outcome r = audit_run(folder, std::string(c.arguments) + " --json out.json");
     EXPECT_EQ(r.exit_code, exit_wrong_input);
     EXPECT_NE(r.err.find("cleancolor: "), r.err.npos);
     EXPECT_NE(r.err.find(c.message), r.err.npos) << r.err;
@@ -313,7 +301,7 @@ TEST(AuditProgram, NeverOverwritesWhatItReads) {
   std::filesystem::create_symlink("in.html", folder.path("link.html"));
   for (const Case& c : cases) {
     SCOPED_TRACE(c.arguments);
-    const Outcome r = run(folder, std::string(c.arguments) + offsets);
+    const Outcome r = audit_run(folder, std::string(c.arguments) + offsets);
     EXPECT_EQ(r.exit_code, exit_wrong_input);
     EXPECT_NE(r.err.find(c.message), r.err.npos) << r.err;
     EXPECT_EQ(file_text(folder.path("in.html")), text);
@@ -325,7 +313,7 @@ TEST(AuditProgram, ReportsWhatItCannotWriteWithCode3) {
   const TestFolder folder;
   folder.file("a.gcode", two_walls());
   for (const char* output : {"-o absent/a.html", "--json absent/a.json", "--svg absent/a.svg", "--png absent/a.png"}) {
-    const Outcome r = run(folder, std::string("a.gcode ") + output + offsets);
+    const Outcome r = audit_run(folder, std::string("a.gcode ") + output + offsets);
     EXPECT_EQ(r.exit_code, exit_system) << output;
     EXPECT_NE(r.err.find("absent"), r.err.npos) << r.err;
   }
@@ -334,7 +322,7 @@ TEST(AuditProgram, ReportsWhatItCannotWriteWithCode3) {
 TEST(AuditProgram, InterruptedLeavesNoFileAndCode130) {
   const TestFolder folder;
   folder.file("a.gcode", two_walls(45'000));
-  const Outcome r = run(folder, std::string("a.gcode --quiet --json a.json") + offsets,
+  const Outcome r = audit_run(folder, std::string("a.gcode --quiet --json a.json") + offsets,
                         "timeout --foreground --preserve-status -s INT 0.1");
   EXPECT_EQ(r.exit_code, exit_interrupted) << r.out << r.err;
   EXPECT_NE(r.err.find("interrupted"), r.err.npos);

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "cli/command_line.hpp"
-#include "support_errors.hpp"
+#include "outcome.hpp"
 
 namespace cleancolor {
 namespace {
@@ -62,23 +61,8 @@ TEST(ExplainArguments, AreHelped) {
     EXPECT_NE(help.find(part), help.npos) << part;
 }
 
-struct Outcome {
-  int exit_code;
-  std::string out;
-  std::string err;
-};
-
-// arguments: as in a shell, relative to the folder.
-Outcome run(const TestFolder& folder, const std::string& arguments) {
-  const std::string out = folder.path("stdout"), err = folder.path("stderr");
-  const std::string command =
-      fmt::format("cd '{}' && '{}' {} > '{}' 2> '{}'", folder.path("."), CLEANCOLOR_PROGRAM, arguments, out, err);
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(out), file_text(err)};
-}
-
 /// The bundled globe's cheap stand-in: two boxes sliced for a printer with two nozzles.
-std::string box(double x) {
+std::string box_at(double x) {
   std::string stl = "solid box\n";
   const auto corner = [&](int i) { return Vec3{x + (i & 1 ? 10. : 0.), i & 2 ? 10. : 0., i & 4 ? 4. : 0.}; };
   constexpr int triangles[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
@@ -92,8 +76,8 @@ std::string box(double x) {
 }
 
 void put_sliced_boxes(const TestFolder& folder) {
-  folder.file("a.stl", box(0));
-  folder.file("b.stl", box(10));
+  folder.file("a.stl", box_at(0));
+  folder.file("b.stl", box_at(10));
   ASSERT_EQ(run(folder, "slice --quiet a.stl b.stl -o ab.gcode --printer generic-dual-klipper").exit_code, exit_done);
 }
 

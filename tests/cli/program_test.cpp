@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <array>
 #include <cstdlib>
@@ -10,26 +9,10 @@
 
 #include "cli/command_line.hpp"
 #include "model/options.hpp"
-#include "support_errors.hpp"
+#include "outcome.hpp"
 
 namespace cleancolor {
 namespace {
-
-struct Outcome {
-  int exit_code;
-  std::string out;
-  std::string err;
-};
-
-// arguments: as in a shell, relative to the folder.
-Outcome run(const TestFolder& folder, const std::string& arguments, const std::string& before = "") {
-  const std::string out = folder.path("stdout");
-  const std::string err = folder.path("stderr");
-  const std::string command = fmt::format("cd '{}' && {} '{}' {} > '{}' 2> '{}'", folder.path("."), before,
-                                          CLEANCOLOR_PROGRAM, arguments, out, err);
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(out), file_text(err)};
-}
 
 // An ASCII STL of a box with two opposite corners.
 std::string box(Vec3 min, Vec3 max) {

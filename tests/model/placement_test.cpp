@@ -14,7 +14,7 @@ Part box_part(Vec3 min, Vec3 max, int extruder = 0) {
   return {"box", box_mesh(min, max), extruder, {}, {}};
 }
 
-Config dual_printer() {
+Config placed_printer() {
   Config config;
   config.bed_shape_mm = {{0, 0}, {200, 0}, {200, 100}, {0, 100}};
   config.max_print_height_mm = 150;
@@ -32,14 +32,14 @@ Box<Vec3> box_of(const std::vector<Part>& parts) {
 TEST(Place, CentresAllPartsTogetherAndDropsThemTogether) {
   std::vector<Part> parts = {box_part({0, 0, -5}, {20, 20, 15}), box_part({20, 0, 0}, {40, 20, 15}, 1)};
   Warnings warnings;
-  place(parts, dual_printer(), {}, warnings.progress);
+  place(parts, placed_printer(), {}, warnings.progress);
   EXPECT_EQ(bounds(parts[0].mesh).min, (Vec3{80, 40, 0}));
   EXPECT_EQ(bounds(parts[1].mesh).min, (Vec3{100, 40, 5}));
   EXPECT_TRUE(warnings.contain("5.00 mm below the bed")) << warnings.all();
 }
 
 TEST(Place, UsesTheAreaThatAllNeededNozzlesReach) {
-  Config config = dual_printer();
+  Config config = placed_printer();
   config.extruders[0].extruder_printable_area_mm = {{0, 0}, {150, 0}, {150, 100}, {0, 100}};
   config.extruders[1].extruder_printable_area_mm = {{50, 0}, {200, 0}, {200, 100}, {50, 100}};
   std::vector<Part> one = {box_part({0, 0, 0}, {20, 20, 20})};
@@ -51,7 +51,7 @@ TEST(Place, UsesTheAreaThatAllNeededNozzlesReach) {
 }
 
 TEST(Place, RefusesAPartOutOfReachOfItsOwnNozzle) {
-  Config config = dual_printer();
+  Config config = placed_printer();
   config.extruders[1].extruder_printable_area_mm = {{50, 0}, {200, 0}, {200, 100}, {50, 100}};
   std::vector<Part> parts = {box_part({40, 40, 0}, {60, 60, 20}, 1)};
   Placement keep;
@@ -60,26 +60,26 @@ TEST(Place, RefusesAPartOutOfReachOfItsOwnNozzle) {
 }
 
 TEST(Reach, IsTheAreaOfTheNozzleWithinTheBed) {
-  Config config = dual_printer();
+  Config config = placed_printer();
   config.extruders[1].extruder_printable_area_mm = {{250, -50}, {50, -50}, {50, 60}, {250, 60}};  // clockwise
   EXPECT_EQ(area_mm2(reach(config, 1)), 150 * 60);
   EXPECT_EQ(bounds_mm(reach(config, 1)).max, (Vec2{200, 60}));
 }
 
 TEST(Reach, IsTheWholeBedForNozzlesOnOneCarriageThatNameNoArea) {
-  Config config = dual_printer();
+  Config config = placed_printer();
   config.extruders[1].nozzle_offset_mm = {33, 0};
   for (const int extruder : {0, 1}) EXPECT_EQ(area_mm2(reach(config, extruder)), 200 * 100);
 }
 
 TEST(Place, RefusesWhatIsTooLargeAndSaysBothSizes) {
   std::vector<Part> parts = {box_part({0, 0, 0}, {400, 20, 20})};
-  EXPECT_TRUE(says(refusal([&] { place(parts, dual_printer(), {}); }),
+  EXPECT_TRUE(says(refusal([&] { place(parts, placed_printer(), {}); }),
                    "400.0 x 20.0 x 20.0 mm, but the print volume is 200.0 x 100.0 x 150.0 mm"));
 }
 
 TEST(Place, KeepsPartsInsideTheBedAlsoWhereTheyArePrintedLarger) {
-  Config config = dual_printer();
+  Config config = placed_printer();
   config.xy_size_compensation_mm = 2;
   std::vector<Part> fits = {box_part({0, 0, 0}, {196, 20, 20})}, too_long = {box_part({0, 0, 0}, {197, 20, 20})};
   place(fits, config, {});
@@ -94,7 +94,7 @@ TEST(Place, TurnsBeforeItCentres) {
   std::vector<Part> parts = {box_part({0, 0, 0}, {20, 150, 20})};
   Placement turned;
   turned.rotate_deg = 90;
-  place(parts, dual_printer(), turned);
+  place(parts, placed_printer(), turned);
   EXPECT_EQ(box_of(parts).size(), (Vec3{150, 20, 20}));
   EXPECT_DOUBLE_EQ(volume_mm3(parts[0].mesh), 60'000);
 }
@@ -104,7 +104,7 @@ TEST(Place, ScalesVolumesByTheCube) {
   Placement placement;
   placement.scale = 2;
   placement.rotate_deg = 30;
-  place(parts, dual_printer(), placement);
+  place(parts, placed_printer(), placement);
   EXPECT_NEAR(volume_mm3(parts[0].mesh), 8000, 1e-9);
   EXPECT_NEAR(box_of(parts).size().x, 20 * (std::sqrt(3.0) + 1) / 2, 1e-9);
 }
@@ -113,18 +113,18 @@ TEST(Place, ObeysCenterAndNoCenter) {
   std::vector<Part> parts = {box_part({10, 10, 10}, {20, 20, 20})};
   Placement keep;
   keep.keep = true;
-  place(parts, dual_printer(), keep);
+  place(parts, placed_printer(), keep);
   EXPECT_EQ(box_of(parts).min, (Vec3{10, 10, 0}));
   Placement there;
   there.center_mm = Vec2{50, 60};
-  place(parts, dual_printer(), there);
+  place(parts, placed_printer(), there);
   EXPECT_EQ(box_of(parts).min, (Vec3{45, 55, 0}));
   there.center_mm = Vec2{1e300, 0};
-  EXPECT_TRUE(says(refusal([&] { place(parts, dual_printer(), there); }), "reaches only"));
+  EXPECT_TRUE(says(refusal([&] { place(parts, placed_printer(), there); }), "reaches only"));
 }
 
 TEST(Place, RefusesTheCornersOfARoundBed) {
-  Config config = dual_printer();
+  Config config = placed_printer();
   config.bed_shape_mm.clear();
   for (int i = 0; i < 72; ++i)
     config.bed_shape_mm.push_back(
@@ -138,8 +138,8 @@ TEST(Place, RefusesTheCornersOfARoundBed) {
 TEST(Place, WarnsOfPartsFarOffTheBedButNotOfOnesDrawnAroundTheOrigin) {
   std::vector<Part> far = {box_part({490, 490, 0}, {510, 510, 20})}, around = {box_part({-10, -10, 0}, {10, 10, 20})};
   Warnings of_far, of_around;
-  place(far, dual_printer(), {}, of_far.progress);
-  place(around, dual_printer(), {}, of_around.progress);
+  place(far, placed_printer(), {}, of_far.progress);
+  place(around, placed_printer(), {}, of_around.progress);
   EXPECT_TRUE(of_far.contain("outside the bed")) << of_far.all();
   EXPECT_EQ(of_around.texts.size(), 0) << of_around.all();
 }

@@ -6,7 +6,7 @@ import path from "node:path";
 import { fileURLToPath } from "node:url";
 
 export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "../..");
-export const program = process.env.CLEANCOLOR ?? path.join(root, "build/release/cli/cleancolor");
+export const program = path.resolve(root, process.env.CLEANCOLOR ?? "build/release/cli/cleancolor");
 export const out = path.join(root, "build/page-test");
 mkdirSync(out, { recursive: true });
 const require = createRequire(path.join(root, "viewer/page/package.json"));

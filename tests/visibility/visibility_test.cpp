@@ -74,7 +74,7 @@ TEST(SurfaceVisibility, OfNothingIsOne) {
   EXPECT_EQ(of({{}, {}}).at({1, 2, 3}), 1);
 }
 
-SurfaceVisibility seen(const std::vector<Polygons>& layers, const View& view, int threads = 2) {
+SurfaceVisibility seen(const std::vector<Polygons>& layers, const ViewBias& view, int threads = 2) {
   const std::vector<double> heights(layers.size(), 0.2);
   return SurfaceVisibility(packed(layers), heights, {.threads = threads, .view = view, .opaque = {}});
 }
