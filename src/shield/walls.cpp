@@ -74,7 +74,7 @@ std::vector<Path> wall_brims(std::span<const Polygons> walls, std::span<const Wa
   std::vector<Path> paths;
   for (std::size_t k = 0; k < walls.size(); ++k) {
     const double width = k + 1 < walls.size() ? std::min(width_mm, (gap_mm - spacing_mm) / 2) : width_mm;
-    for (int i = int(width / spacing_mm); i > 0; --i)
+    for (int i = 1; i <= int(width / spacing_mm); ++i)
       for (const Ring& ring : offset(walls[k], spacing_mm * i, Corners::round))
         if (ClipperLib::Orientation(ring)) paths.push_back(wall_path(to_mm(ring), true, printers[k]));
   }

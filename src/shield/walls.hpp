@@ -26,8 +26,9 @@ std::vector<Path> wall_paths(std::span<const Polygons> walls, std::span<const Wa
 /// ring smaller than that is one closed path of the first.  Requires: to_second not zero.
 std::vector<Path> half_wall_paths(const Polygons& wall, const std::array<WallPrinter, 2>& printers, Vec2 to_second);
 
-/// Loops around each wall, on its outer side, from the outside in: up to width_mm around the outermost, up to half of
-/// gap_mm, the distance to the next wall, around the others.
+/// Loops around each wall, on its outer side, from the inside out: up to width_mm around the outermost, up to half of
+/// gap_mm, the distance to the next wall, around the others. The idle nozzle, full since the heaters are on, so crosses
+/// the inner ones before the outermost bring it nearest to the place of another colour.
 /// Requires: spacing_mm > 0, the distance of neighbouring roads.
 std::vector<Path> wall_brims(std::span<const Polygons> walls, std::span<const WallPrinter> printers, double width_mm,
                              double gap_mm, double spacing_mm);

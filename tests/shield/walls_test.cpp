@@ -91,11 +91,11 @@ TEST(WallBrims, StayApartFromTheNextWall) {
   EXPECT_NEAR(box_of(loops, 1).max.x, 17, 1e-6);
 }
 
-TEST(WallBrims, SurroundEachWallFromTheOutsideIn) {
+TEST(WallBrims, SurroundEachWallFromTheInsideOut) {
   const std::vector<Polygons> walls{rectangle({0, 0}, {10, 10})};
   const std::vector<Path> loops = wall_brims(walls, printers, 2, 4, 0.5);
   ASSERT_EQ(loops.size(), 4U);
-  for (std::size_t i = 1; i < loops.size(); ++i) EXPECT_LT(length_mm(loops[i]), length_mm(loops[i - 1]));
+  for (std::size_t i = 1; i < loops.size(); ++i) EXPECT_GT(length_mm(loops[i]), length_mm(loops[i - 1]));
   EXPECT_NEAR(box_of(loops, 0).max.x, 12, 1e-6);
   EXPECT_TRUE(wall_brims(walls, printers, 0, 4, 0.5).empty());
 }
