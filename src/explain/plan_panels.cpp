@@ -185,7 +185,9 @@ std::vector<Line> barred_places(const Panel& panel, const PlanScenery& s) {
   for (const int n : s.plan.hanging ? s.plan.used : printing_in(s))
     for (int y = 0; y < rows; ++y)
       for (int x = 0, end = 0; x < columns; x = end + 1) {
-        const auto foreign = [&](int i) { return is_visible_foreign(map.at(view.min + Vec2{i + 0.5, y + 0.5} * step), n); };
+        const auto foreign = [&](int i) {
+          return is_visible_foreign(map.at(view.min + Vec2{i + 0.5, y + 0.5} * step), n);
+        };
         for (end = x; end < columns && foreign(end);) ++end;
         if (end == x) continue;
         const Vec2 a = view.min + Vec2{double(x), double(y)} * step - nozzle_offset_mm(s.machine, n);

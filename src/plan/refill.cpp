@@ -11,11 +11,11 @@
 namespace cleancolor {
 namespace {
 
-constexpr double farthest_wall_mm = 15;       // of the wall from where the outer wall begins
-constexpr double shortest_pass_mm = 1.5;      // pass
-constexpr double usual_area_mm2 = 0.06;  // by which the length of a pass is chosen
-constexpr double least_mm = 20;          // of way that a refill must be worth
-constexpr double least_pushed_mm3 = 0.005;      // that can be pushed
+constexpr double farthest_wall_mm = 15;     // of the wall from where the outer wall begins
+constexpr double shortest_pass_mm = 1.5;    // pass
+constexpr double usual_area_mm2 = 0.06;     // by which the length of a pass is chosen
+constexpr double least_mm = 20;             // of way that a refill must be worth
+constexpr double least_pushed_mm3 = 0.005;  // that can be pushed
 
 struct OnWall {
   const Path* wall = nullptr;

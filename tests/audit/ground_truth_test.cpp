@@ -41,7 +41,8 @@ Drawing started(const AuditMachine& machine = drawn_machine(two_nozzles), bool r
 }
 
 /// W, straight to A, C.
-Drawing straight_print(const AuditMachine& machine = drawn_machine(two_nozzles), bool relative_e = true, bool quiet = false) {
+Drawing straight_print(const AuditMachine& machine = drawn_machine(two_nozzles), bool relative_e = true,
+                       bool quiet = false) {
   Drawing d = started(machine, relative_e);
   wall_w(d);
   wall_a(d);
@@ -236,7 +237,8 @@ TEST(GroundTruth, OnMarlinABareToolChangeAddsAJump) {
 }
 
 TEST(GroundTruth, RelativeAndAbsoluteEGiveTheSame) {
-  expect_same(worst(straight_print(drawn_machine(two_nozzles), true)), worst(straight_print(drawn_machine(two_nozzles), false)));
+  expect_same(worst(straight_print(drawn_machine(two_nozzles), true)),
+              worst(straight_print(drawn_machine(two_nozzles), false)));
 }
 
 TEST(GroundTruth, NozzlesThatAreLiftedOrParkedTouchNothingWhileIdle) {

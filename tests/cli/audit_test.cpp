@@ -179,8 +179,8 @@ TEST(AuditProgram, WritesEveryOutputTheSameForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 5}) {
     const Outcome r =
         audit_run(folder, fmt::format("a.gcode --quiet --threads {0} -o {0}.html --json {0}.json --layer 2 --svg "
-                                "{0}.svg --png {0}.png {1}",
-                                threads, offsets));
+                                      "{0}.svg --png {0}.png {1}",
+                                      threads, offsets));
     ASSERT_EQ(r.exit_code, exit_done) << r.err;
     EXPECT_EQ(r.out + r.err, "");
     for (const char* ending : {"html", "json", "svg", "png"}) {
@@ -208,8 +208,8 @@ TEST(AuditProgram, ExitsWith1WhereAFigureIsOverItsLimit) {
   const TestFolder folder;
   folder.file("a.gcode", two_walls());
   const Outcome over = audit_run(folder, std::string("a.gcode --quiet --json a.json --fail-over wipes=0 --fail-over "
-                                               "smear_volume=0.001 --fail-over model.zippers=1") +
-                                       offsets);
+                                                     "smear_volume=0.001 --fail-over model.zippers=1") +
+                                             offsets);
   EXPECT_EQ(over.exit_code, exit_exceeded);
   EXPECT_NE(over.err.find("cleancolor: a.gcode: worst.smear_volume is "), over.err.npos) << over.err;
   EXPECT_NE(over.err.find(" mm3, more than the 0.001 mm3 allowed\n"), over.err.npos) << over.err;
@@ -323,7 +323,7 @@ TEST(AuditProgram, InterruptedLeavesNoFileAndCode130) {
   const TestFolder folder;
   folder.file("a.gcode", two_walls(45'000));
   const Outcome r = audit_run(folder, std::string("a.gcode --quiet --json a.json") + offsets,
-                        "timeout --foreground --preserve-status -s INT 0.1");
+                              "timeout --foreground --preserve-status -s INT 0.1");
   EXPECT_EQ(r.exit_code, exit_interrupted) << r.out << r.err;
   EXPECT_NE(r.err.find("interrupted"), r.err.npos);
   EXPECT_FALSE(std::filesystem::exists(folder.path("a.json")));

@@ -102,8 +102,8 @@ TEST(Reader, G91IsAboutEWhereTheFirmwareSaysSo) {
   EXPECT_NEAR(net_mm(as_print(printed + "G91\nM82\nG1 E3\n")), 3, 1e-9);                               // M82 came later
   EXPECT_NEAR(net_mm(as_print("EXCLUDE_OBJECT_START NAME=a\n" + printed + "G91\nG1 E5\n")), 5, 1e-9);  // Klipper
   for (const char* flavour : {"klipper", "reprapfirmware", "sailfish"})
-    EXPECT_NEAR(net_mm(as_print(printed + "G91\nG1 E5\nG90\n; layer_height = 0.2\n; gcode_flavor = " + flavour + "\n")), 5,
-                1e-9)
+    EXPECT_NEAR(net_mm(as_print(printed + "G91\nG1 E5\nG90\n; layer_height = 0.2\n; gcode_flavor = " + flavour + "\n")),
+                5, 1e-9)
         << flavour;
 }
 
@@ -119,8 +119,8 @@ TEST(Reader, AllToolsShareOneCount) {
 
 TEST(Reader, SailfishCountsForEachTool) {
   for (const char* word : {"M135", "M108"}) {
-    const GcodePrint print =
-        as_print(fmt::format("{}{} T1\nG1 X5 E5\n{} T0\nG1 X6 E3\nG92 E0\n{} T1\nG1 X7 E6\n", printed, word, word, word));
+    const GcodePrint print = as_print(
+        fmt::format("{}{} T1\nG1 X5 E5\n{} T0\nG1 X6 E3\nG92 E0\n{} T1\nG1 X7 E6\n", printed, word, word, word));
     EXPECT_NEAR(net_mm(print, 0), 3, 1e-9) << word;
     EXPECT_NEAR(net_mm(print, 1), 6, 1e-9) << word;
   }
@@ -185,7 +185,8 @@ TEST(Reader, ToolWordsOfAllFirmwares) {
 
 TEST(Reader, OnlyABareToolWordOnMarlinJumps) {
   const auto jumps = [](const std::string& word, const std::string& flavour) {
-    return events(as_print(";FLAVOR:" + flavour + "\n" + printed + word + "\nG1 X5 E20\n"), GcodeEvent::Kind::tool_change)
+    return events(as_print(";FLAVOR:" + flavour + "\n" + printed + word + "\nG1 X5 E20\n"),
+                  GcodeEvent::Kind::tool_change)
         .at(0)
         .jumps;
   };
