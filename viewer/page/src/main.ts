@@ -6,6 +6,7 @@ import { el, option } from "./ui/dom.ts";
 import { jobs } from "./ui/jobs.ts";
 import { opener } from "./ui/open.ts";
 import { slicing } from "./ui/slicing.ts";
+import { unread } from "./ui/unread.ts";
 import { viewer_layout } from "./ui/viewer_layout.ts";
 
 let prints: PrintState[] = [];
@@ -21,13 +22,14 @@ const first = el("select", { id: "print", "aria-label": "Print", change: () => v
 const second = el("select", { id: "compare", "aria-label": "Compare with", change: () => void show(second.value ? [shown[0]!, Number(second.value)] : [shown[0]!]) });
 const download = el("a", { class: "button", id: "download", download: true, title: "Download this G-code", hidden: true }, "Download");
 const forget = el("button", { type: "button", class: "quiet", id: "forget", title: "Have the program drop this print", hidden: true, click: () => void forget_shown() }, "Forget");
+const bad = unread((print) => drop(print).then(() => say("")).catch(fail));
 const welcome = el("div", { class: "welcome", hidden: true }, el("h2", {}, "See how clean it comes out"),
   el("p", {}, "Drop the G-code of any slicer here to see where idle nozzles leave ooze, or meshes to slice them clean."), el("button", { type: "button", class: "primary", click: open.pick }, "Open files…"));
 main.querySelector(".stage")!.append(welcome);
 document.getElementById("page")!.append(
   el("header", {}, el("h1", {}, el("span", { class: "logo", "aria-hidden": "true" }, el("i"), el("i"), el("i")), "cleancolor"), first, forget, second,
     el("span", { class: "gap" }), download, el("button", { type: "button", id: "open", click: open.pick }, "Open…"), el("button", { type: "button", class: "quiet", id: "show-help", "aria-label": "Keys and help", title: "Keys (?)", click: () => help.showModal() }, "?")),
-  main, help, open.input, open.curtain);
+  bad.element, main, help, open.input, open.curtain);
 
 function fill_prints(): void {
   const here = prints.filter(can_be_shown);
@@ -38,6 +40,7 @@ function fill_prints(): void {
   download.hidden = forget.hidden = shown.length === 0;
   if (shown.length) download.href = api.gcode_address(shown[0]!);
   welcome.hidden = shown.length > 0;
+  bad.show(prints.filter((p) => !can_be_shown(p)));
 }
 
 function fail(e: unknown): void { say(e instanceof Error ? e.message : String(e)); }
@@ -47,6 +50,7 @@ viewer.on((what) => { if (what === "prints") look_again(); });
 function look_again(): void {
   shown = viewer.sides.map((s) => (s.source as ServerSource).id);
   fill_prints();
+  void api.prints().then((now) => { prints = now; fill_prints(); }).catch(fail); // some may have turned out unreadable
 }
 
 async function show(ids: number[]): Promise<void> {
@@ -65,16 +69,20 @@ async function show_print(id: number): Promise<void> {
   await show([id]);
 }
 
-/** Drops the first print and the job that made it, and shows the one compared with, else the newest. */
+/** Has the program drop a print, and the job that made it. */
+async function drop(print: PrintState): Promise<void> {
+  await api.forget_print(print.id);
+  for (const job of await api.jobs()) if (job.print === print.id) await api.end_job(job.id);
+  prints = await api.prints();
+  fill_prints();
+  job_list.watch();
+}
+
+/** Drops the first print, and shows the one compared with, else the newest. */
 async function forget_shown(): Promise<void> {
   const print = prints.find((p) => p.id === shown[0]);
   if (!print || !confirm(`Forget ${print.name}? What was sliced here is gone, unless you have downloaded it.`)) return;
-  try {
-    await api.forget_print(print.id);
-    for (const job of await api.jobs()) if (job.print === print.id) await api.end_job(job.id);
-    prints = await api.prints();
-  } catch (e) { fail(e); return; }
-  job_list.watch();
+  try { await drop(print); } catch (e) { fail(e); return; }
   const next = shown[1] ?? prints.filter(can_be_shown).at(-1)?.id;
   say("");
   await show(next === undefined ? [] : [next]);
@@ -99,8 +107,8 @@ async function take(gcode: File[], meshes: File[], unknown: File[]): Promise<voi
 try {
   prints = await api.prints();
   job_list.watch();
-  const good = prints.filter(can_be_shown), bad = prints.filter((p) => !can_be_shown(p));
   fill_prints();
-  if (prints.length) await show([...good.slice(0, 2), ...bad].map((p) => p.id)); // the bad ones, to hear why
+  const good = prints.filter(can_be_shown);
+  if (good.length) await show(good.slice(0, 2).map((p) => p.id));
   else if ((await api.meshes()).length) side.show("slice");
 } catch (e) { fail(e); }
