@@ -42,7 +42,7 @@ inline void fuzz_request(std::string_view input) {
   require(!name.empty() && name.size() <= 400 && name.front() != '.' && name.find_first_of("/\\\n\r") == name.npos &&
           name.find('\0') == name.npos);
   for (const auto parse : {+[](const std::string& t) { (void)nozzle_offsets_of(t, "nozzle_offset"); },
-                           +[](const std::string& t) { validate(job_request(t, "").config); }}) {
+                           +[](const std::string& t) { validate(job_request(t, {}).config); }}) {
     try {
       parse(text);
     } catch (const Error&) {

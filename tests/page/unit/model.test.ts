@@ -147,7 +147,7 @@ test("a level of protection sets its options over those of the profiles", () => 
 });
 
 test("files are known by their names", () => {
-  assert.deepEqual(["a.STL", "b.gcode", "c.3mf", "d.exe"].map(kind_of_file), ["mesh", "gcode", "mesh", null]);
+  assert.deepEqual(["a.STL", "b.gcode", "c.3mf", "my.toml", "d.exe"].map(kind_of_file), ["mesh", "gcode", "mesh", "printer", "unknown"]);
 });
 
 /** As the graphics card does it. */

@@ -4,7 +4,7 @@ import { api, can_be_shown, ServerSource, type PrintState } from "./data/api.ts"
 import { set_test_hooks } from "./test_hooks.ts";
 import { el, option } from "./ui/dom.ts";
 import { jobs } from "./ui/jobs.ts";
-import { opener } from "./ui/open.ts";
+import { opener, type Opened } from "./ui/open.ts";
 import { slicing } from "./ui/slicing.ts";
 import { unread } from "./ui/unread.ts";
 import { viewer_layout } from "./ui/viewer_layout.ts";
@@ -12,7 +12,7 @@ import { viewer_layout } from "./ui/viewer_layout.ts";
 let prints: PrintState[] = [];
 let shown: number[] = []; // ids of the prints shown, or about to be
 
-const open = opener((gcode, meshes, unknown) => void take(gcode, meshes, unknown));
+const open = opener((files) => void take(files));
 const slice_panel = slicing(open.pick, (id) => job_list.watch(id));
 const job_list = jobs((job) => { if (job.print) void show_print(job.print); }, (print) => void show_print(print));
 const { viewer, main, help, side, say } = viewer_layout([{ name: "slice", title: "Slice", content: el("div", {}, slice_panel.element, job_list.element) }]);
@@ -88,9 +88,10 @@ async function forget_shown(): Promise<void> {
   await show(next === undefined ? [] : [next]);
 }
 
-async function take(gcode: File[], meshes: File[], unknown: File[]): Promise<void> {
+async function take({ gcode, mesh, printer, unknown }: Opened): Promise<void> {
   try {
-    for (const file of meshes) {
+    for (const file of printer) { side.show("slice"); await slice_panel.add_printer(file); }
+    for (const file of mesh) {
       say(`uploading ${file.name}`, 0);
       const { id } = await api.add_mesh(file);
       slice_panel.add_mesh({ id, name: file.name, bytes: file.size });
@@ -100,7 +101,7 @@ async function take(gcode: File[], meshes: File[], unknown: File[]): Promise<voi
     for (const file of gcode) { say(`uploading ${file.name}`, 0); ids.push((await api.add_print(file)).id); }
     say("");
     if (ids.length) { prints = await api.prints(); await show(ids.slice(0, 2)); }
-    if (unknown.length) say(`${unknown[0]!.name}: neither G-code nor a mesh (STL, OBJ, PLY, AMF, 3MF)`);
+    if (unknown.length) say(`${unknown[0]!.name}: neither G-code nor a mesh (STL, OBJ, PLY, AMF, 3MF), nor a printer's profile (.toml)`);
   } catch (e) { fail(e); }
 }
 
