@@ -89,5 +89,11 @@ export class Body {
 
   roads(level: number, layer: number): number { return level < 0 || layer < 0 ? 0 : (this.built[level]?.roads.layer_end[layer] ?? 0); }
   finished(): boolean { return this.pending === 0 && this.built.every((b) => b !== null); }
-  dispose(): void { this.disposed = true; this.built.forEach((b) => b?.chunks.forEach((c) => c.dispose())); }
+
+  /** Resolves when nothing is written to the graphics card any more. */
+  dispose(): Promise<void> {
+    this.disposed = true;
+    this.built.forEach((b) => b?.chunks.forEach((c) => c.dispose()));
+    return this.work;
+  }
 }

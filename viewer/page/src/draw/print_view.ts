@@ -122,11 +122,11 @@ export class PrintView implements View {
   places_shown(): number[] { return [...this.place_index.subarray(0, this.places?.shown ?? 0)]; }
 
   dispose(): void {
-    this.body.dispose();
     for (const c of [this.top, this.under, this.floor, this.places]) c?.dispose();
     this.idle.dispose();
     if (this.bed) dispose_bed(this.bed);
-    for (const m of [this.material, this.place_material]) { dispose_palette(m); m.dispose(); }
+    // A part of the body that is just being written would bring its palette back.
+    void this.body.dispose().then(() => { for (const m of [this.material, this.place_material]) { dispose_palette(m); m.dispose(); } });
   }
 
   private chunk_of(buffer: RoadBuffer): RoadChunk {
