@@ -1,7 +1,7 @@
 // One print in the scene: body, the layers at the cut in full, places of damage, nozzles, lines. It is told what to
 // show and chooses before each frame how finely.
 import * as THREE from "three";
-import { box_of, kinds, type Audit, type Moves, type Summary } from "../data/print.ts";
+import { box_of, by_layer, kinds, type Audit, type Moves, type Summary } from "../data/print.ts";
 import { laid_of, painted, painted_places, places_of, road_keys, type Colouring, type Laid, type Legend } from "../model/colouring.ts";
 import { add_layer, levels, RoadBuffer, words_per_road } from "../model/roads.ts";
 import { bed, dispose_bed } from "./bed.ts";
@@ -36,7 +36,8 @@ export class PrintView implements View {
   private under: RoadChunk | null = null;
   private floor: RoadChunk | null = null;
   private places: RoadChunk | null = null;
-  private place_end: Uint32Array = new Uint32Array();
+  private places_by_layer: ReturnType<typeof by_layer> = { order: new Uint32Array(), layer_start: new Uint32Array() };
+  private readonly place_end: Uint32Array; // of the places drawn, up to and including a layer
   private place_index: Uint32Array = new Uint32Array();
   private bed: THREE.Object3D | null = null;
   private readonly laid: Laid;
@@ -51,6 +52,7 @@ export class PrintView implements View {
     this.look = look;
     this.shown = { from_layer: 0, layer: moves.layer_z.length - 1, step: Infinity, share: 0 };
     this.laid = laid_of(moves);
+    this.place_end = new Uint32Array(moves.layer_z.length);
     this.key_of = road_keys(moves, this.laid, undefined);
     this.body = new Body(moves, this.material, this.key_of);
     this.idle = new Idle(summary, moves);
@@ -67,6 +69,7 @@ export class PrintView implements View {
 
   set_audit(audit: Audit): void {
     this.audit = audit;
+    this.places_by_layer = by_layer(audit.places.layer, this.moves.layer_z.length);
     this.idle.set_audit(audit);
     this.key_of = road_keys(this.moves, this.laid, audit.visibility);
     for (const c of [this.top, this.under, this.floor]) c?.set_keys(this.key_of);
@@ -216,22 +219,20 @@ export class PrintView implements View {
     this.places = null;
     const kind = places_of[this.look.colouring];
     if (!this.audit || !kind) return;
-    const { places } = this.audit, wanted = kinds.indexOf(kind), layers = this.moves.layer_z.length;
-    const index: number[] = [];
-    for (let k = 0; k < places.count; k++) if (places.kind[k] === wanted && (kind !== "zipper" || places.visibility[k]! > 0.02)) index.push(k);
-    index.sort((a, b) => places.layer[a]! - places.layer[b]! || a - b);
-    const n = index.length;
-    const buffer = new RoadBuffer(Math.max(1, n));
-    this.place_end = new Uint32Array(layers);
+    const { places } = this.audit, wanted = kinds.indexOf(kind), { order, layer_start } = this.places_by_layer;
     const { palette, key } = painted_places(this.look.colouring, this.summary, this.audit);
     set_palette(this.place_material, palette);
-    index.forEach((k, i) => {
-      const width = kind === "zipper" ? 45 : Math.min(140, 32 + 180 * Math.sqrt(places.mm3[k]!));
-      const height = 115 * (this.moves.layer_height[places.layer[k]!] ?? 0.2);
-      buffer.put(places.from, 3 * k, places.to, 3 * k, Math.round(width), Math.min(255, Math.round(height)), false, k);
-      this.place_end[places.layer[k]!] = i + 1;
-    });
-    for (let l = 1; l < layers; l++) this.place_end[l] = Math.max(this.place_end[l]!, this.place_end[l - 1]!);
+    const buffer = new RoadBuffer();
+    for (let l = 0; l < this.place_end.length; l++) {
+      const height = Math.min(255, Math.round(115 * (this.moves.layer_height[l] ?? 0.2)));
+      for (const k of order.subarray(layer_start[l]!, layer_start[l + 1]!)) {
+        if (places.kind[k] !== wanted || (kind === "zipper" && places.visibility[k]! <= 0.02)) continue;
+        const width = kind === "zipper" ? 45 : Math.min(140, 32 + 180 * Math.sqrt(places.mm3[k]!));
+        buffer.put(places.from, 3 * k, places.to, 3 * k, Math.round(width), height, false, k);
+      }
+      this.place_end[l] = buffer.count;
+    }
+    const n = buffer.count;
     this.place_index = buffer.move.subarray(0, n);
     this.places = new RoadChunk(buffer.words.subarray(0, words_per_road * n), this.place_index, key, this.place_material);
     this.root.add(this.places.mesh);

@@ -60,8 +60,8 @@ export function laid_of(moves: Moves): Laid {
 /** The bytes of a road's key, from the lowest: what any colouring asks of it. */
 export enum KeyByte { plastic, role, speed, visibility }
 
-/** The key of a move's road. Plastic: 2 x tool + 1 where it is thrown away; speed and visibility in 255ths; all is in full
- *  sight where there is no audit, and what is thrown away always. */
+/** The key of a move's road. Plastic: 2 x tool + 1 where it is thrown away; speed and visibility in 255ths; where there is
+ *  no audit all is in full sight. */
 export function road_keys(moves: Moves, laid: Laid, visibility: Uint8Array | undefined): (move: number) => number {
   const { tool, role, speed, flags } = moves;
   return (i) => {
