@@ -20,6 +20,21 @@ export async function troubled(chrome, address) {
     await page.context().close();
   });
 
+  await test("a file that turns out to be unreadable while others are looked at is listed, too", async () => {
+    let read = false;
+    const page = await open_page(chrome, address, {}, (page) => page.route("**/api/prints", async (route) => {
+      const rows = await (await route.fetch()).json();
+      await route.fulfill({ json: read ? rows : rows.map(({ id, name, error, ...row }) => (error ? { id, name, state: "reading" } : { id, name, ...row })) });
+    }));
+    await audited(page);
+    const row = page.locator("#unread li");
+    assert.equal(await row.count(), 0);
+    read = true;
+    await row.waitFor({ state: "visible" });
+    assert.match(await row.locator("span").textContent(), /^bad\.gcode: .{10}/);
+    await page.context().close();
+  });
+
   await test("a print that fails only in the audit is shown without it", async () => {
     const failed = { state: "failed", error: "out of memory" };
     const page = await open_page(chrome, address, {}, async (page) => {

@@ -1,6 +1,6 @@
 // The page of `cleancolor view`: prints of the server, files opened here, slicing.
 import "./style.css";
-import { api, can_be_shown, ServerSource, type PrintState } from "./data/api.ts";
+import { api, can_be_shown, pause, ServerSource, type PrintState } from "./data/api.ts";
 import { set_test_hooks } from "./test_hooks.ts";
 import { el, option } from "./ui/dom.ts";
 import { jobs } from "./ui/jobs.ts";
@@ -41,6 +41,23 @@ function fill_prints(): void {
   if (shown.length) download.href = api.gcode_address(shown[0]!);
   welcome.hidden = shown.length > 0;
   bad.show(prints.filter((p) => !can_be_shown(p)));
+  void watch_prints();
+}
+
+let watching = false;
+/** Asks again until all prints are read: some may turn out to be unreadable. */
+async function watch_prints(): Promise<void> {
+  if (watching) return;
+  watching = true;
+  try {
+    while (prints.some((p) => p.state === "reading")) {
+      await pause(400);
+      const before = prints, now = await api.prints();
+      if (prints !== before) continue; // somebody knows better
+      prints = now;
+      if (before.filter(can_be_shown).length !== now.filter(can_be_shown).length) fill_prints();
+    }
+  } catch { /* the program has ended; the next request says so */ } finally { watching = false; }
 }
 
 function fail(e: unknown): void { say(e instanceof Error ? e.message : String(e)); }
@@ -50,7 +67,6 @@ viewer.on((what) => { if (what === "prints") look_again(); });
 function look_again(): void {
   shown = viewer.sides.map((s) => (s.source as ServerSource).id);
   fill_prints();
-  void api.prints().then((now) => { prints = now; fill_prints(); }).catch(fail); // some may have turned out unreadable
 }
 
 async function show(ids: number[]): Promise<void> {

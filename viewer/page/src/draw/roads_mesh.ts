@@ -6,7 +6,7 @@ import type { Palette } from "../model/colouring.ts";
 import { words_per_road } from "../model/roads.ts";
 
 const vertex = /* glsl */ `
-  uniform highp usampler2D roads; uniform lowp usampler2D keys; uniform lowp sampler2D palette; uniform int column; uniform int row;
+  uniform highp usampler2D roads; uniform highp usampler2D keys; uniform lowp sampler2D palette; uniform int column; uniform int row;
   uniform float cut_below_z; uniform vec2 middle; uniform float rampart; uniform float grow; uniform float detail;
   out vec3 shade;
   void main() {
@@ -40,8 +40,8 @@ const vertex = /* glsl */ `
     vec3 right = vec3(viewMatrix[0][0], viewMatrix[1][0], viewMatrix[2][0]), top = vec3(viewMatrix[0][1], viewMatrix[1][1], viewMatrix[2][1]);
     vec3 sun = normalize(eye + 0.55 * top - 0.45 * right);
     float light = 0.42 + 0.46 * max(0.0, dot(normal, sun)) + 0.14 * normal.z;
-    uvec4 key = texelFetch(keys, ivec2(road & 511, road >> 9), 0);
-    shade = texelFetch(palette, ivec2(key[column], row < 0 ? 0u : key[row]), 0).rgb * light;
+    uint key = texelFetch(keys, ivec2(road & 511, road >> 9), 0).r;
+    shade = texelFetch(palette, ivec2((key >> column) & 255u, row < 0 ? 0u : (key >> row) & 255u), 0).rgb * light;
     gl_Position = projectionMatrix * viewMatrix * vec4(p, 1.0);
     // The near half of the rampart opens like a doll's house; what lies below the lowest layer shown is gone.
     bool near_half = dot(centre.xy - middle, eye.xy) > 0.0 && length(eye.xy) > 0.25;
@@ -65,8 +65,8 @@ export function set_palette(material: RoadMaterial, { colours, column, row }: Pa
   const texture = new THREE.DataTexture(new Uint8Array(colours.buffer, colours.byteOffset, colours.byteLength), 256, colours.length / 256, THREE.RGBAFormat, THREE.UnsignedByteType);
   texture.needsUpdate = true;
   uniforms.palette.value = texture;
-  uniforms.column.value = column;
-  uniforms.row.value = row ?? -1;
+  uniforms.column.value = 8 * column;
+  uniforms.row.value = row === null ? -1 : 8 * row;
 }
 export function dispose_palette(material: RoadMaterial): void { (material.uniforms.palette.value as THREE.Texture | null)?.dispose(); }
 
@@ -101,8 +101,8 @@ export class RoadChunk {
     this.road_texture = new THREE.DataTexture(padded, 2 * texture_roads, rows, THREE.RGBAIntegerFormat, THREE.UnsignedIntType);
     this.road_texture.internalFormat = "RGBA32UI";
     this.keys = new Uint32Array(texture_roads * rows);
-    this.key_texture = new THREE.DataTexture(new Uint8Array(this.keys.buffer), texture_roads, rows, THREE.RGBAIntegerFormat, THREE.UnsignedByteType);
-    this.key_texture.internalFormat = "RGBA8UI";
+    this.key_texture = new THREE.DataTexture(this.keys, texture_roads, rows, THREE.RedIntegerFormat, THREE.UnsignedIntType);
+    this.key_texture.internalFormat = "R32UI";
     this.set_keys(key_of);
     const geometry = new THREE.BufferGeometry();
     geometry.setIndex(index());
