@@ -1,7 +1,7 @@
 // fuzz/request_target.hpp
 //
 // What the fuzz target of the viewer's own parsing does with one input, also called by the test that replays seeds and
-// findings: the input as a header, as a name, as a query and as a job.
+// findings: the input as a header, as a name, as a query, as a job and as a profile that is sent.
 //
 // An Error is a fine answer. Nobody gets in without the token, no name leads out of its folder, and a job that is
 // accepted can be printed. Otherwise the target aborts.
@@ -42,7 +42,8 @@ inline void fuzz_request(std::string_view input) {
   require(!name.empty() && name.size() <= 400 && name.front() != '.' && name.find_first_of("/\\\n\r") == name.npos &&
           name.find('\0') == name.npos);
   for (const auto parse : {+[](const std::string& t) { (void)nozzle_offsets_of(t, "nozzle_offset"); },
-                           +[](const std::string& t) { validate(job_request(t, "").config); }}) {
+                           +[](const std::string& t) { validate(job_request(t, {}).config); },
+                           +[](const std::string& t) { check_printer(t, "my.toml"); }}) {
     try {
       parse(text);
     } catch (const Error&) {

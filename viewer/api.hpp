@@ -16,6 +16,7 @@
 
 #include "viewer/files.hpp"
 #include "viewer/job_queue.hpp"
+#include "viewer/own_printers.hpp"
 #include "viewer/print_store.hpp"
 
 namespace cleancolor {
@@ -88,17 +89,23 @@ class Api {
   Answer print(const Asked& asked, int id, const std::string& part);
   Answer meshes(const Asked& asked);
   Answer mesh(const Asked& asked, int id);
+  Answer profiles(const Asked& asked);
+  Answer profile(const Asked& asked, const std::string& name);
   Answer jobs(const Asked& asked);
   Answer job(const Asked& asked, int id);
   Answer page(const Asked& asked) const;
   MachineRequest machine_of(const Query& query) const;
   int keep_mesh(Mesh mesh);
+  void keep_printer(const std::string& name, const std::string& toml);
+  OwnPrinters own_printers() const;
   Job new_job(const std::string& body);
 
   ApiOptions options_;
-  Bytes option_table_, profile_table_;
+  Bytes option_table_;
   TempFolder folder_;
   mutable std::mutex mutex_;
+  OwnPrinters printers_;  // guarded, as is their table
+  Bytes profile_table_;
   std::map<int, Mesh> meshes_;  // guarded
   int last_mesh_ = 0;
   PrintStore prints_;

@@ -77,8 +77,8 @@ std::vector<std::string> texts_at(const Json& json, const char* name) {
   return texts;
 }
 
-void require_profile(const std::string& name, OptionGroup group, const std::string& own, const char* field) {
-  if (name.empty() || (!own.empty() && name == own)) return;
+void require_profile(const std::string& name, OptionGroup group, const char* field) {
+  if (name.empty()) return;
   for (const BuiltInProfile& p : builtin_profiles())
     if (p.group == group && p.name == name) return;
   throw wrong(fmt::format("there is no {} '{}'", group_name(group), name), field);
@@ -118,22 +118,22 @@ void apply_settings(Config& config, const Json& json) {
   }
 }
 
-Config config_at(const Json& json, const std::string& own_printer, const ProtectionLevel& protection) {
-  const Settings settings{.printer = text_at(json, "printer"),
+Config config_at(const Json& json, const OwnPrinters& own, const ProtectionLevel& protection) {
+  const std::string printer = text_at(json, "printer");
+  const Settings settings{.printer = printer_named(printer, own),
                           .materials = texts_at(json, "materials"),
                           .print = text_at(json, "print"),
                           .set = protection.set};
-  require_profile(settings.printer, OptionGroup::printer, own_printer, "printer");
-  require_profile(settings.print, OptionGroup::print, "", "print");
-  for (const std::string& m : settings.materials) require_profile(m, OptionGroup::material, "", "materials");
+  if (!own.contains(printer)) require_profile(printer, OptionGroup::printer, "printer");
+  require_profile(settings.print, OptionGroup::print, "print");
+  for (const std::string& m : settings.materials) require_profile(m, OptionGroup::material, "materials");
   Config config;
   try {
     config = config_of(settings);
   } catch (const Error& e) {  // the profiles are sound, so only their number can be at fault
     throw wrong(e.what(), settings.materials.size() > 1 ? "materials" : "printer");
   }
-  if (config.audit_only)
-    throw wrong(fmt::format("the profile {} serves only to audit G-code", settings.printer), "printer");
+  if (config.audit_only) throw wrong(fmt::format("the profile {} serves only to audit G-code", printer), "printer");
   apply_settings(config, json);
   try {
     validate(config);
@@ -157,7 +157,7 @@ std::optional<double> azimuth_at(const Json& json, const ProtectionLevel& protec
 
 }  // namespace
 
-JobRequest job_request(std::string_view body, const std::string& own_printer) {
+JobRequest job_request(std::string_view body, const OwnPrinters& own) {
   const Json json = Json::parse(body, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object()) throw wrong("the body is not a JSON object");
   require_fields(json, {"meshes", "printer", "materials", "print", "settings", "protect", "azimuth"}, "");
@@ -166,7 +166,7 @@ JobRequest job_request(std::string_view body, const std::string& own_printer) {
   if (!level) throw wrong(fmt::format("protect: '{}' is none of none, rampart, full", protect), "protect");
   JobRequest request;
   request.meshes = meshes_at(json);
-  request.config = config_at(json, own_printer, *level);
+  request.config = config_at(json, own, *level);
   request.azimuth_deg = azimuth_at(json, *level);
   const std::size_t extruders = request.config.extruders.size();
   for (const JobMesh& mesh : request.meshes)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline.hpp"
+#include "viewer/own_printers.hpp"
 
 namespace cleancolor {
 
@@ -25,11 +26,8 @@ struct JobRequest {
   Config config;
 };
 
-/// own_printer: a printer profile of the user that may be named beside the built-in ones; "": none. Other files cannot
-/// be named, for whoever asks need not be allowed to read what this program can.
-///
 /// Throws ApiError 400 with the field at fault: for what is no JSON, has fields or types that are not documented, names
 /// a profile or option that does not exist or a value that is out of range, or options that do not go together.
-JobRequest job_request(std::string_view body, const std::string& own_printer);
+JobRequest job_request(std::string_view body, const OwnPrinters& own);
 
 }  // namespace cleancolor

@@ -101,19 +101,16 @@ std::string options_json() {
   return text(all);
 }
 
-std::string profiles_json(const std::string& own_printer) {
+std::string profiles_json(const std::string& chosen, const OwnPrinters& own) {
   Json all = Json::array();
-  bool built_in = own_printer.empty();
-  for (const BuiltInProfile& p : builtin_profiles()) {
-    const bool chosen = p.group == OptionGroup::printer && p.name == own_printer;
-    all.push_back(profile_json(find_profile(p.group, std::string(p.name)), chosen));
-    built_in = built_in || chosen;
+  for (const auto& [name, file] : own) {
+    Profile printer = find_profile(OptionGroup::printer, printer_named(name, own));
+    printer.name = name;  // by which jobs name it
+    all.push_back(profile_json(printer, name == chosen));
   }
-  if (!built_in) {
-    Profile own = find_profile(OptionGroup::printer, own_printer);
-    own.name = own_printer;  // by which jobs name it
-    all.insert(all.begin(), profile_json(own, true));
-  }
+  for (const BuiltInProfile& p : builtin_profiles())
+    all.push_back(
+        profile_json(find_profile(p.group, std::string(p.name)), p.group == OptionGroup::printer && p.name == chosen));
   for (const char* word : {"none", "rampart", "full"}) all.push_back(protection_json(word));
   return text(all);
 }

@@ -5,13 +5,15 @@
 
 #include <string>
 
+#include "viewer/own_printers.hpp"
+
 namespace cleancolor {
 
 /// All options, in the order of the reference.
 std::string options_json();
 
-/// The built-in profiles, after own_printer where it is not empty: that of the user, marked as chosen, which may also
-/// be a built-in one.  Throws Error where it cannot be read.
-std::string profiles_json(const std::string& own_printer);
+/// The built-in profiles, after the user's own printers; the one named `chosen`, own or built-in, is marked so.  Throws
+/// Error where one cannot be read.
+std::string profiles_json(const std::string& chosen, const OwnPrinters& own = {});
 
 }  // namespace cleancolor

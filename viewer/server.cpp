@@ -195,7 +195,7 @@ void Server::Http::prepare() {
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   });
   server.set_pre_routing_handler([this](const auto& request, auto& response) { return before(request, response); });
-  server.Post("/api/(prints|meshes|jobs)",
+  server.Post("/api/(prints|meshes|jobs|profiles)",
               [this](const auto& request, auto& response, const auto& read) { receive(request, response, read); });
   // What the library itself refuses: lines that are no HTTP, headers that are too long.
   server.set_error_handler([](const httplib::Request&, httplib::Response& response) {

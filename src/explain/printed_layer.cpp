@@ -18,15 +18,9 @@ double road_width(const GcodePrint& print, const Drive& d) {
   return std::clamp(double(print.moves[d.move].width_mm), thinnest_mm, widest_mm);
 }
 
-/// Our own files call the rampart a skirt, as other programs know no better word.
-Role role_of(const GcodePrint& print, const Drive& d) {
-  const bool ours = print.facts.dialect == Dialect::cleancolor;
-  return ours && d.role == Role::skirt_brim && d.layer > 0 ? Role::rampart : d.role;
-}
-
 Road road_of(const GcodePrint& print, const Drive& d) {
   const GcodeMove& move = print.moves[d.move];
-  return {.role = role_of(print, d),
+  return {.role = d.role,
           .width_mm = road_width(print, d),
           .height_mm = double(move.height_mm),
           .area_mm2 = d.pushed_mm3 / distance(d.from_mm, d.to_mm),
@@ -157,7 +151,7 @@ std::vector<std::vector<LaidRoad>> laid_roads(const GcodePrint& print, const Aud
     if (!lays(machine, d)) return;
     const Vec2 offset = nozzle_offset_mm(machine, d.feeds);
     layers[d.layer - first].push_back(
-        {d.from_mm + offset, d.to_mm + offset, road_width(print, d), int(d.feeds), role_of(print, d)});
+        {d.from_mm + offset, d.to_mm + offset, road_width(print, d), int(d.feeds), d.role});
   });
   return layers;
 }

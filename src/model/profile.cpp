@@ -157,11 +157,14 @@ toml::table parsed(std::string_view text, const std::string& file) {
   }
 }
 
-Profile read(OptionGroup group, std::string_view text, const std::string& file, int depth) {
+Profile read(OptionGroup group, std::string_view text, const std::string& file, int depth, Inherits from) {
   const toml::table table = parsed(text, file);
   Profile profile;
   if (const toml::node* node = table.get("inherits")) {
     std::string parent = string_of(*node, "inherits", file);
+    if (is_file(parent) && from == Inherits::built_in)
+      throw Error(fmt::format("{}inherits: '{}' is a file; only built-in profiles can be inherited here",
+                              place_of(file, *node), parent));
     if (is_file(parent)) parent = (std::filesystem::path(file).parent_path() / parent).string();
     if (depth == max_inheritance) {
       throw Error(fmt::format("{}inherits: more than {} profiles inherit one from another; is it a circle?",
@@ -187,11 +190,11 @@ Profile read(OptionGroup group, std::string_view text, const std::string& file, 
 }
 
 Profile find(OptionGroup group, const std::string& name_or_file, const std::string& where, int depth) {
-  if (is_file(name_or_file)) return read(group, text_of_file(name_or_file), name_or_file, depth);
+  if (is_file(name_or_file)) return read(group, text_of_file(name_or_file), name_or_file, depth, Inherits::all);
   std::vector<std::string_view> names;
   for (const BuiltInProfile& p : builtin_profiles()) {
     if (p.group != group) continue;
-    if (p.name == name_or_file) return read(group, p.toml, fmt::format("{}.toml", p.name), depth);
+    if (p.name == name_or_file) return read(group, p.toml, fmt::format("{}.toml", p.name), depth, Inherits::all);
     names.push_back(p.name);
   }
   throw Error(fmt::format("{}there is no {} '{}'; known are {}; a file of your own ends in .toml", where,
@@ -217,8 +220,8 @@ std::optional<OptionGroup> profile_group(const std::string& name_or_file) {
   return inherited && !is_file(*inherited) ? profile_group(*inherited) : std::nullopt;
 }
 
-Profile read_profile(OptionGroup group, std::string_view toml, const std::string& file) {
-  return read(group, toml, file, 0);
+Profile read_profile(OptionGroup group, std::string_view toml, const std::string& file, Inherits from) {
+  return read(group, toml, file, 0, from);
 }
 
 Config with_profile(Config config, const Profile& profile, std::size_t extruder) {

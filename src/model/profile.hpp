@@ -56,11 +56,15 @@ Profile find_profile(OptionGroup group, const std::string& name_or_file);
 /// or else by what it inherits. Nothing where there is no built-in profile of this name, or a file has no option.
 std::optional<OptionGroup> profile_group(const std::string& name_or_file);
 
+/// What a profile may inherit: a text that comes from elsewhere must not have files of this machine read.
+enum class Inherits { all, built_in };
+
 /// Reads the text of a profile. file: its path, for messages and to find what it inherits.
 ///
 /// Throws Error("file:line: ...") where the TOML is malformed, a key is unknown or of another group, a value has the
-/// wrong type or is out of range, or inheritance goes round in a circle.
-Profile read_profile(OptionGroup group, std::string_view toml, const std::string& file);
+/// wrong type or is out of range, inheritance goes round in a circle, or is of a file where only built-in profiles may
+/// be inherited.
+Profile read_profile(OptionGroup group, std::string_view toml, const std::string& file, Inherits from = Inherits::all);
 
 /// The config with the profile's settings. A printer's nozzle_diameter makes the number of extruders; a material is put
 /// into one extruder and leaves the others alone.

@@ -30,6 +30,22 @@ export async function slicing(chrome, address) {
     await page.locator(".parts select").nth(0).selectOption("0");
   });
 
+  await test("a printer's own profile is taken beside meshes and chosen, and what is wrong with one is told at the printer", async () => {
+    const before = await page.locator("#printer").inputValue();
+    const send = (name, toml) => page.setInputFiles("#file", { name, mimeType: "application/toml", buffer: Buffer.from(toml) });
+    await send("broken.toml", "# mine\nnozle_diameter = [0.4, 0.4]\n");
+    const error = page.locator("#printer-error");
+    await error.waitFor({ state: "visible" });
+    assert.match(await error.textContent(), /^broken\.toml:2: there is no option 'nozle_diameter'; did you mean 'nozzle_diameter'\?$/);
+    assert.equal(await page.locator("#printer").inputValue(), before);
+    await picture(page, "printer-error");
+    await send("three.toml", 'inherits = "generic"\nnozzle_diameter = [0.4, 0.4, 0.4]\nnozzle_offset = [[0, 0], [20, 0], [40, 0]]\n');
+    await page.waitForFunction(() => document.getElementById("printer").value === "three.toml");
+    assert.ok(!(await error.isVisible()));
+    assert.equal(await page.locator(".parts select").first().locator("option").count(), 3);
+    await page.selectOption("#printer", before);
+  });
+
   await test("a value out of range is told in words at its field", async () => {
     await page.fill("#option-layer_height", "99");
     await page.keyboard.press("Tab");

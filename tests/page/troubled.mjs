@@ -1,7 +1,7 @@
 // One print that cannot be read, or not audited, leaves the page with the others, and the page says why.
 import assert from "node:assert/strict";
 import path from "node:path";
-import { audited, open_page, out, test } from "./harness.mjs";
+import { audited, open_page, out, picture, test } from "./harness.mjs";
 
 const names = (page) => page.evaluate(() => window.cleancolor.viewer.sides.map((s) => s.name));
 const status = (page) => page.locator(".status").textContent();
@@ -11,11 +11,27 @@ export async function troubled(chrome, address) {
     const page = await open_page(chrome, address);
     await audited(page);
     assert.deepEqual(await names(page), ["blocks.gcode"]);
-    await page.waitForFunction(() => /bad\.gcode/.test(document.querySelector(".status").textContent));
-    assert.ok(await page.locator(".status").isVisible());
-    assert.match(await status(page), /bad\.gcode: .{10}/);
+    const row = page.locator("#unread li");
+    await row.waitFor({ state: "visible" });
+    assert.match(await row.locator("span").textContent(), /^bad\.gcode: .{10}/);
+    await picture(page, "unread");
     assert.equal(await page.locator("#print").inputValue(), "1");
     assert.deepEqual(page.troubles, []);
+    await page.context().close();
+  });
+
+  await test("a file that turns out to be unreadable while others are looked at is listed, too", async () => {
+    let read = false;
+    const page = await open_page(chrome, address, {}, (page) => page.route("**/api/prints", async (route) => {
+      const rows = await (await route.fetch()).json();
+      await route.fulfill({ json: read ? rows : rows.map(({ id, name, error, ...row }) => (error ? { id, name, state: "reading" } : { id, name, ...row })) });
+    }));
+    await audited(page);
+    const row = page.locator("#unread li");
+    assert.equal(await row.count(), 0);
+    read = true;
+    await row.waitFor({ state: "visible" });
+    assert.match(await row.locator("span").textContent(), /^bad\.gcode: .{10}/);
     await page.context().close();
   });
 
@@ -72,6 +88,15 @@ export async function troubled(chrome, address) {
     assert.ok(!(await page.locator("#forget").isVisible()));
     const left = await (await page.request.get(new URL("/api/prints", address).href)).json();
     assert.deepEqual(left.map((p) => p.name), ["bad.gcode"]);
+    await page.locator("#unread button").click();
+    await page.locator("#unread").waitFor({ state: "hidden" });
+    assert.deepEqual(await (await page.request.get(new URL("/api/prints", address).href)).json(), []);
+    await page.setInputFiles("#file", path.join(out, "bad.gcode"));
+    await page.locator("#unread li").waitFor({ state: "visible" });
+    assert.match(await status(page), /bad\.gcode/);
+    await page.locator("#unread button").click();
+    await page.locator("#unread").waitFor({ state: "hidden" });
+    assert.ok(!(await page.locator(".status").isVisible()), "what was wrong with it goes with it");
     assert.deepEqual(page.troubles, []);
     await page.context().close();
   });

@@ -104,7 +104,9 @@ export async function viewing(chrome, address) {
       await page.selectOption("#colouring", colouring);
       await settled(page);
       seen.add((await page.locator(".picture").screenshot({ path: new URL(`../../build/page-test/colour-${colouring}.png`, import.meta.url).pathname })).toString("base64"));
-      assert.ok((await page.locator(".legend li").count()) > 0);
+      const legend = await page.locator(".legend li").allTextContents();
+      assert.ok(legend.length > 0);
+      if (colouring === "role") assert.deepEqual(legend.filter((role) => /rampart|skirt/.test(role)), ["rampart"]);
     }
     assert.equal(seen.size, 8);
     await page.selectOption("#colouring", "extruder");

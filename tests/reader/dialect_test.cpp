@@ -116,8 +116,8 @@ TEST(Comments, TheToolOfSimplify3DIsHeightAndWidth) {
   EXPECT_DOUBLE_EQ(reader.state().width_mm, 0.48);
 }
 
-TEST(Comments, OurWallsAreSkirtsAndOurRefillsAreRefills) {
-  EXPECT_EQ(role_after({"TYPE:Perimeter", "RAMPART_WALL:2"}), Role::skirt_brim);
+TEST(Comments, OurWallsAreRampartsAndOurRefillsAreRefills) {
+  EXPECT_EQ(role_after({"TYPE:Perimeter", "RAMPART_WALL:2"}), Role::rampart);
   EXPECT_EQ(role_after({"RAMPART_WALL:2", "REFILL_START"}), Role::refill);
 }
 

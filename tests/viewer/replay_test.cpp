@@ -24,7 +24,7 @@ TEST(ViewerReplay, ReadsEverySeedAndFindingOfRequests) {
 TEST(ViewerReplay, AcceptsTheJobsAmongTheSeeds) {
   for (const char* name : {"job.json", "least.json"})
     EXPECT_EQ(
-        error_of([&] { (void)job_request(file_text(std::string(CLEANCOLOR_ROOT "/fuzz/seeds/request/") + name), ""); }),
+        error_of([&] { (void)job_request(file_text(std::string(CLEANCOLOR_ROOT "/fuzz/seeds/request/") + name), {}); }),
         "no error");
 }
 

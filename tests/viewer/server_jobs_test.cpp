@@ -116,6 +116,39 @@ TEST_F(ViewerJobs, FindWhatProtectionStandsFor) {
   EXPECT_EQ(levels.at("full").at("turns"), true);
 }
 
+TEST_F(ViewerJobs, TakePrintersThatWereSent) {
+  const int mesh = model("4-cones_white.stl");
+  const auto body = [&](const std::string& printer) {
+    return json{{"meshes", {{{"id", mesh}}}}, {"printer", printer}, {"protect", "none"}}.dump();
+  };
+  EXPECT_EQ(post("/api/jobs", body("my.toml"), 400).at("error").at("field"), "printer");
+  const std::string toml = "inherits = \"replicator-dual\"\nbed_shape = [[-99,-70],[99,-70],[99,70],[-99,70]]\n";
+  EXPECT_EQ(post("/api/profiles?name=my.toml", toml).at("name"), "my.toml");
+  EXPECT_EQ(post("/api/profiles?name=my.toml", toml).at("name"), "my.toml");  // in place of the one before
+  const json own = get("/api/profiles").at(0);
+  EXPECT_EQ(own.at("name"), "my.toml");
+  EXPECT_EQ(own.at("extruders"), 2);
+  EXPECT_NE(get("/api/profiles").at(1).at("name"), "my.toml");
+  post("/api/jobs", body("my.toml"));
+  const json job = until("/api/jobs/1", {"done", "failed"});
+  ASSERT_EQ(job.at("state"), "done") << job;
+  const json print = until("/api/prints/" + job.at("print").dump(), {"drawn", "audited", "failed"});
+  EXPECT_EQ(print.at("summary").at("bed_mm").at(0), json({-99, -70}));
+  EXPECT_TRUE(post("/api/prints?name=a.gcode&printer=my.toml", small_gcode()).contains("id"));
+  remove("/api/profiles/my.toml");
+  remove("/api/profiles/my.toml", 404);
+  post("/api/jobs", body("my.toml"), 400);
+}
+
+TEST_F(ViewerJobs, SayWhatIsWrongWithAPrinterThatWasSent) {
+  const json error = post("/api/profiles?name=my.toml", "nozle_diameter = 0.4\n", 400).at("error");
+  EXPECT_EQ(error.at("field"), "printer");
+  EXPECT_EQ(error.at("message").get<std::string>().substr(0, 31), "my.toml:1: there is no option '");
+  EXPECT_EQ(post("/api/profiles?name=my.stl", "nozzle_diameter = 0.4\n", 400).at("error").at("field"), "printer");
+  post("/api/profiles?name=my.toml", std::string(3000, '#'), 413);
+  for (const json& profile : get("/api/profiles")) EXPECT_NE(profile.at("name"), "my.toml");
+}
+
 TEST_F(ViewerJobs, SayWhichFieldIsAtFault) {
   const int mesh = model("4-cones_white.stl");
   EXPECT_EQ(post("/api/jobs", job(mesh, R"({"layer_height": "9"})"), 400).at("error").at("field"), "layer_height");

@@ -57,6 +57,11 @@ TEST_F(ViewerPrints, SayWhyTheyFail) {
   EXPECT_EQ(bad.at("error").get<std::string>().substr(0, 9), "bad.gcode");
   get("/api/prints/1/moves", 409);
   get("/api/prints/1/audit", 409);
+  const json listed = get("/api/prints");
+  EXPECT_EQ(listed.at(0).at("state"), "failed");
+  EXPECT_EQ(listed.at(0).at("error"), bad.at("error"));
+  remove("/api/prints/1");
+  EXPECT_EQ(get("/api/prints"), json::array());
 }
 
 TEST_F(ViewerPrints, TakeTheNozzlesFromTheQuery) {

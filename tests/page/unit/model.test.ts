@@ -1,10 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { unpack } from "../../../viewer/page/src/data/arrays.ts";
-import { by_layer } from "../../../viewer/page/src/data/print.ts";
+import { by_layer, flag, type Summary } from "../../../viewer/page/src/data/print.ts";
+import { colourings, KeyByte, laid_of, painted, painted_places, road_keys, type Palette } from "../../../viewer/page/src/model/colouring.ts";
 import { after_move, carriage_at, later, layer_at, steps_of, time_at } from "../../../viewer/page/src/model/moment.ts";
 import { Ooze } from "../../../viewer/page/src/model/ooze.ts";
-import { mix, nozzle_colours, parse_colour, rgba } from "../../../viewer/page/src/model/palette.ts";
+import { css, heat, mix, nozzle_colours, parse_colour, rgba, viridis } from "../../../viewer/page/src/model/palette.ts";
 import { add_layer, level_roads, levels, RoadBuffer } from "../../../viewer/page/src/model/roads.ts";
 import { found, job_request, kind_of_file, standing_azimuth, standing_value, with_printer, type Choice } from "../../../viewer/page/src/model/slicing.ts";
 import { audit_with, moves_from, type Line } from "./prints.ts";
@@ -146,5 +147,56 @@ test("a level of protection sets its options over those of the profiles", () => 
 });
 
 test("files are known by their names", () => {
-  assert.deepEqual(["a.STL", "b.gcode", "c.3mf", "d.exe"].map(kind_of_file), ["mesh", "gcode", "mesh", null]);
+  assert.deepEqual(["a.STL", "b.gcode", "c.3mf", "my.toml", "d.exe"].map(kind_of_file), ["mesh", "gcode", "mesh", "printer", "unknown"]);
+});
+
+/** As the graphics card does it. */
+const looked_up = ({ colours, column, row }: Palette, key: number) => colours[256 * (row === null ? 0 : (key >>> (8 * row)) & 255) + ((key >>> (8 * column)) & 255)]!;
+const two_nozzles = { nozzles: [{ colour: "#cc4422" }, { colour: "#2244cc" }], roles: ["external_perimeter", "rampart", "unknown"] } as unknown as Summary;
+
+/** A wall of each tool, and a rampart of the second. */
+function three_roads() {
+  const moves = moves_from([[0, 0, 0.2, false, 0, 0], [10, 0, 0.2, true, 0, 0], [20, 0, 0.2, true, 1, 0], [30, 0, 0.2, true, 1, 0]]);
+  moves.role[3] = 1;
+  moves.flags[3]! |= flag.auxiliary;
+  return moves;
+}
+
+test("a road's colour is looked up by its key, in any colouring", () => {
+  const moves = three_roads(), laid = laid_of(moves), [first, second] = nozzle_colours(two_nozzles.nozzles.map((n) => n.colour));
+  const colour = (colouring: (typeof colourings)[number], visibility?: number[]) => {
+    const key = road_keys(moves, laid, visibility && Uint8Array.from(visibility)), { palette } = painted(colouring, two_nozzles, laid, visibility !== undefined);
+    return [1, 2, 3].map((move) => looked_up(palette, key(move)));
+  };
+  const thrown_away = mix(second!, rgba(176, 178, 182), 0.6);
+  assert.deepEqual(colour("extruder"), [first, second, thrown_away]);
+  assert.deepEqual(colour("extruder", [0, 255, 0, 255]), [first, mix(rgba(0, 0, 0), second!, 0.74), thrown_away], "what lies hidden is darker");
+  assert.deepEqual(colour("role").map(css), ["rgb(224 122 63)", "rgb(224 122 63)", "rgb(127 176 105)"]);
+  assert.deepEqual(colour("visibility", [0, 255, 7, 0]), [viridis[255], viridis[7], viridis[0]]);
+  moves.speed.set([0, 0, 300, 600]);
+  assert.deepEqual(colour("speed"), [viridis[0], viridis[128], viridis[255]]);
+});
+
+test("legends name the roles laid, and what is thrown away", () => {
+  const moves = three_roads();
+  assert.deepEqual(painted("role", two_nozzles, laid_of(moves), false).legend.entries.map((e) => e.label), ["external perimeter", "rampart"]);
+  const labels = () => painted("extruder", two_nozzles, laid_of(moves), false).legend.entries.map((e) => e.label);
+  assert.deepEqual(labels(), ["Extruder 1", "Extruder 2", "thrown away"]);
+  moves.flags[3]! &= ~flag.auxiliary;
+  assert.deepEqual(labels(), ["Extruder 1", "Extruder 2"]);
+});
+
+test("the ramp of speeds ends where 98 % of the plastic is laid below", () => {
+  const moves = moves_from(Array.from({ length: 102 }, (_, i): Line => [i, 0, 0.2, i > 0, 0, 0]));
+  moves.speed.fill(500);
+  moves.speed.set([2000, 2000], 50);
+  assert.equal(laid_of(moves).top_speed, 500);
+  assert.equal(road_keys(moves, laid_of(moves), undefined)(50) >>> (8 * KeyByte.speed) & 255, 255);
+});
+
+test("places are coloured by how much of them is to be seen, or as the plastic that oozed", () => {
+  const audit = audit_with([{ kind: 0, nozzle: 1, move: 2, mm3: 0.025 }], 4);
+  const colour = (colouring: "smear" | "look") => { const { palette, key } = painted_places(colouring, two_nozzles, audit); return looked_up(palette, key(0)); };
+  assert.equal(colour("smear"), heat[128]);
+  assert.equal(colour("look"), nozzle_colours(two_nozzles.nozzles.map((n) => n.colour))[1]);
 });

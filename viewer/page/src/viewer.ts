@@ -7,6 +7,7 @@ import { Marker } from "./draw/marker.ts";
 import { PrintView, type Look } from "./draw/print_view.ts";
 import { Stage } from "./draw/stage.ts";
 import { after_move, later, layer_at, steps_of, time_at, type Moment } from "./model/moment.ts";
+import { named } from "./ui/words.ts";
 
 export interface Side {
   name: string; source: Source; summary: Summary; moves: Moves; view: PrintView; audit: Audit | null;
@@ -17,11 +18,7 @@ export type Change = "prints" | "moment" | "look" | "audit" | "selection" | "pla
 const dark_query = window.matchMedia("(prefers-color-scheme: dark)");
 const still_query = window.matchMedia("(prefers-reduced-motion: reduce)");
 
-/** An error in words, after the name of the print unless they name it. */
-function trouble(name: string, e: unknown): string {
-  const words = e instanceof Error ? e.message : String(e);
-  return words.includes(name) ? words : `${name}: ${words}`;
-}
+const trouble = (name: string, e: unknown) => named(name, e instanceof Error ? e.message : String(e));
 
 export class Viewer {
   readonly stage: Stage;

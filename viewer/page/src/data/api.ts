@@ -63,6 +63,7 @@ export const api = {
   gcode_address: (id: number) => `/api/prints/${id}/gcode`,
   options: () => json<Option[]>("/api/options"),
   profiles: () => json<Profile[]>("/api/profiles"),
+  add_printer: (file: File) => json<{ name: string }>(`/api/profiles?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file }),
   meshes: () => json<Mesh[]>("/api/meshes"),
   add_mesh: (file: File) => named("/api/meshes", file),
   forget_mesh: (id: number) => forget(`/api/meshes/${id}`),

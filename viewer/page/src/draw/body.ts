@@ -18,35 +18,41 @@ export class Body {
   private work: Promise<void> = Promise.resolve();
   private pending = 0;
 
-  constructor(private readonly moves: Moves, private readonly material: RoadMaterial) { this.seen = seen_from_outside(moves); }
+  constructor(private readonly moves: Moves, private readonly material: RoadMaterial, private key_of: (move: number) => number) { this.seen = seen_from_outside(moves); }
 
   /** Whether a move belongs to the body. */
   seen: (move: number) => boolean;
 
   /** Builds all levels, the coarsest first; `ready` hears of each. */
-  build(upload: Upload, paint: (chunk: RoadChunk) => void, ready: () => void): void {
-    this.work = this.work.then(() => this.build_levels(levels.length - 1, upload, paint, ready));
+  build(upload: Upload, ready: () => void): void {
+    this.work = this.work.then(() => this.build_levels(levels.length - 1, upload, ready));
   }
 
-  /** Builds the finer levels anew with what the audit knows to be visible. */
-  refine(visibility: Uint8Array, upload: Upload, paint: (chunk: RoadChunk) => void, ready: () => void): void {
+  /** Gives roads new keys, and builds the finer levels anew with what the audit knows to be visible. */
+  refine(visibility: Uint8Array, key_of: (move: number) => number, upload: Upload, ready: () => void): void {
     this.pending++;
+    this.key_of = key_of; // also of the levels being built
     this.work = this.work.then(async () => {
       this.seen = seen_from_outside(this.moves, visibility);
-      await this.build_levels(finer_levels, upload, paint, ready);
+      await in_slices(this.new_keys(), () => this.disposed);
+      ready();
+      await this.build_levels(finer_levels, upload, ready);
       this.pending--;
     });
   }
 
-  private async build_levels(coarsest: number, upload: Upload, paint: (chunk: RoadChunk) => void, ready: () => void): Promise<void> {
+  private *new_keys(): Generator<void, void> {
+    for (const b of this.built) for (const chunk of b?.chunks ?? []) { chunk.set_keys(this.key_of); yield; }
+  }
+
+  private async build_levels(coarsest: number, upload: Upload, ready: () => void): Promise<void> {
     for (let n = coarsest; n >= 0; n--) {
       const roads = await in_slices(level_roads(this.moves, levels[n]!, this.seen), () => this.disposed);
       if (!roads) return;
       const chunks: RoadChunk[] = [];
       for (let k = 0; k < roads.count; k += chunk_roads) {
         const end = Math.min(roads.count, k + chunk_roads);
-        const chunk = new RoadChunk(roads.words.subarray(words_per_road * k, words_per_road * end), roads.move.subarray(k, end), this.material);
-        paint(chunk);
+        const chunk = new RoadChunk(roads.words.subarray(words_per_road * k, words_per_road * end), roads.move.subarray(k, end), this.key_of, this.material);
         chunks.push(chunk);
         await upload(chunk.mesh);
         if (this.disposed) { chunks.forEach((c) => c.dispose()); return; }
@@ -83,6 +89,11 @@ export class Body {
 
   roads(level: number, layer: number): number { return level < 0 || layer < 0 ? 0 : (this.built[level]?.roads.layer_end[layer] ?? 0); }
   finished(): boolean { return this.pending === 0 && this.built.every((b) => b !== null); }
-  chunks(level: number): RoadChunk[] { return this.built[level]?.chunks ?? []; }
-  dispose(): void { this.disposed = true; this.built.forEach((b) => b?.chunks.forEach((c) => c.dispose())); }
+
+  /** Resolves when nothing is written to the graphics card any more. */
+  dispose(): Promise<void> {
+    this.disposed = true;
+    this.built.forEach((b) => b?.chunks.forEach((c) => c.dispose()));
+    return this.work;
+  }
 }

@@ -1,14 +1,13 @@
 // One print in the scene: body, the layers at the cut in full, places of damage, nozzles, lines. It is told what to
 // show and chooses before each frame how finely.
 import * as THREE from "three";
-import { box_of, kinds, type Audit, type Moves, type Summary } from "../data/print.ts";
-import { painted, place_colour, places_of, type Colouring, type Legend } from "../model/colouring.ts";
-import type { Rgba } from "../model/palette.ts";
+import { box_of, by_layer, kinds, type Audit, type Moves, type Summary } from "../data/print.ts";
+import { laid_of, painted, painted_places, places_of, road_keys, type Colouring, type Laid, type Legend } from "../model/colouring.ts";
 import { add_layer, levels, RoadBuffer, words_per_road } from "../model/roads.ts";
 import { bed, dispose_bed } from "./bed.ts";
 import { Body } from "./body.ts";
 import { Idle } from "./idle.ts";
-import { road_material, RoadChunk } from "./roads_mesh.ts";
+import { dispose_palette, road_material, RoadChunk, set_palette } from "./roads_mesh.ts";
 import type { Stage, View } from "./stage.ts";
 
 export interface Shown {
@@ -37,11 +36,12 @@ export class PrintView implements View {
   private under: RoadChunk | null = null;
   private floor: RoadChunk | null = null;
   private places: RoadChunk | null = null;
-  private place_end: Uint32Array = new Uint32Array();
+  private places_by_layer: ReturnType<typeof by_layer> = { order: new Uint32Array(), layer_start: new Uint32Array() };
+  private readonly place_end: Uint32Array; // of the places drawn, up to and including a layer
   private place_index: Uint32Array = new Uint32Array();
   private bed: THREE.Object3D | null = null;
-  private colour: (move: number) => Rgba = () => 0;
-  private painting = 0;
+  private readonly laid: Laid;
+  private key_of: (move: number) => number;
   shown: Shown;
   private look: Look;
   private under_key = "";
@@ -51,7 +51,10 @@ export class PrintView implements View {
   constructor(readonly summary: Summary, readonly moves: Moves, private readonly stage: Stage, look: Look) {
     this.look = look;
     this.shown = { from_layer: 0, layer: moves.layer_z.length - 1, step: Infinity, share: 0 };
-    this.body = new Body(moves, this.material);
+    this.laid = laid_of(moves);
+    this.place_end = new Uint32Array(moves.layer_z.length);
+    this.key_of = road_keys(moves, this.laid, undefined);
+    this.body = new Body(moves, this.material, this.key_of);
     this.idle = new Idle(summary, moves);
     this.scene.matrixAutoUpdate = false;
     this.scene.add(this.root);
@@ -60,18 +63,22 @@ export class PrintView implements View {
     const [low, high] = box_of(summary);
     for (const m of [this.material, this.place_material]) m.uniforms.middle.value.set((low[0] + high[0]) / 2, (low[1] + high[1]) / 2);
     this.set_look(look);
-    this.body.build((mesh) => stage.upload(mesh), (chunk) => this.paint(chunk), () => stage.ask());
+    this.recolour();
+    this.body.build((mesh) => stage.upload(mesh), () => stage.ask());
   }
 
   set_audit(audit: Audit): void {
     this.audit = audit;
+    this.places_by_layer = by_layer(audit.places.layer, this.moves.layer_z.length);
     this.idle.set_audit(audit);
-    this.body.refine(audit.visibility, (mesh) => this.stage.upload(mesh), (chunk) => this.paint(chunk), () => this.stage.ask());
+    this.key_of = road_keys(this.moves, this.laid, audit.visibility);
+    for (const c of [this.top, this.under, this.floor]) c?.set_keys(this.key_of);
+    this.body.refine(audit.visibility, this.key_of, (mesh) => this.stage.upload(mesh), () => this.stage.ask());
     this.recolour();
   }
 
   set_look(look: Look): void {
-    const repaint = look.colouring !== this.look.colouring || look.dark !== this.look.dark || this.painting === 0;
+    const repaint = look.colouring !== this.look.colouring;
     const dark_changed = look.dark !== this.look.dark;
     this.look = look;
     this.material.uniforms.rampart.value = { hidden: 0, open: 1, whole: 2 }[look.rampart];
@@ -103,7 +110,6 @@ export class PrintView implements View {
     const level = this.body.affordable(wanted, Math.max(0, layer - 1), budget_roads);
     const left = this.body.show(level, layer - 1);
     this.fill_under(Math.max(this.shown.from_layer, left), level >= 0);
-    for (const chunk of [...this.body.chunks(level)]) this.paint(chunk);
     if (level >= 0 && this.first_drawn) { const done = this.first_drawn; this.first_drawn = null; void this.stage.frame_done().then(done); }
     const chunk_roads = (c: RoadChunk | null) => c?.shown ?? 0;
     return this.body.roads(level, layer - 1) + chunk_roads(this.top) + chunk_roads(this.under) + chunk_roads(this.floor) + chunk_roads(this.places);
@@ -119,18 +125,16 @@ export class PrintView implements View {
   places_shown(): number[] { return [...this.place_index.subarray(0, this.places?.shown ?? 0)]; }
 
   dispose(): void {
-    this.body.dispose();
     for (const c of [this.top, this.under, this.floor, this.places]) c?.dispose();
     this.idle.dispose();
     if (this.bed) dispose_bed(this.bed);
-    this.material.dispose();
-    this.place_material.dispose();
+    // A part of the body that is just being written would bring its palette back.
+    void this.body.dispose().then(() => { for (const m of [this.material, this.place_material]) { dispose_palette(m); m.dispose(); } });
   }
 
   private chunk_of(buffer: RoadBuffer): RoadChunk {
     const n = buffer.count;
-    const chunk = new RoadChunk(buffer.words.subarray(0, words_per_road * n), buffer.move.subarray(0, n), this.material);
-    this.paint(chunk);
+    const chunk = new RoadChunk(buffer.words.subarray(0, words_per_road * n), buffer.move.subarray(0, n), this.key_of, this.material);
     this.root.add(chunk.mesh);
     return chunk;
   }
@@ -202,21 +206,11 @@ export class PrintView implements View {
   }
 
   private recolour(): void {
-    const p = painted(this.look.colouring, this.summary, this.moves, this.audit);
-    this.colour = p.colour;
-    this.legend = p.legend;
-    this.painting++;
-    for (const c of [this.top, this.under, this.floor]) if (c) this.paint(c);
+    const { palette, legend } = painted(this.look.colouring, this.summary, this.laid, this.audit !== null);
+    set_palette(this.material, palette);
+    this.legend = legend;
     this.build_places();
     this.stage.move();
-  }
-
-  private paint(chunk: RoadChunk): void {
-    if (chunk.painted === this.painting) return;
-    chunk.painted = this.painting;
-    const { colours, move } = chunk, { colour } = this;
-    for (let k = 0; k < move.length; k++) colours[k] = colour(move[k]!);
-    chunk.repaint();
   }
 
   /** Smears, holes or zippers of the colouring, by layer, a little thicker than the roads they lie on. */
@@ -225,24 +219,22 @@ export class PrintView implements View {
     this.places = null;
     const kind = places_of[this.look.colouring];
     if (!this.audit || !kind) return;
-    const { places } = this.audit, wanted = kinds.indexOf(kind), layers = this.moves.layer_z.length;
-    const index: number[] = [];
-    for (let k = 0; k < places.count; k++) if (places.kind[k] === wanted && (kind !== "zipper" || places.visibility[k]! > 0.02)) index.push(k);
-    index.sort((a, b) => places.layer[a]! - places.layer[b]! || a - b);
-    const n = index.length;
-    const buffer = new RoadBuffer(Math.max(1, n));
-    this.place_end = new Uint32Array(layers);
-    const colour = place_colour(this.look.colouring, this.summary, this.audit);
-    index.forEach((k, i) => {
-      const width = kind === "zipper" ? 45 : Math.min(140, 32 + 180 * Math.sqrt(places.mm3[k]!));
-      const height = 115 * (this.moves.layer_height[places.layer[k]!] ?? 0.2);
-      buffer.put(places.from, 3 * k, places.to, 3 * k, Math.round(width), Math.min(255, Math.round(height)), false, k);
-      this.place_end[places.layer[k]!] = i + 1;
-    });
-    for (let l = 1; l < layers; l++) this.place_end[l] = Math.max(this.place_end[l]!, this.place_end[l - 1]!);
+    const { places } = this.audit, wanted = kinds.indexOf(kind), { order, layer_start } = this.places_by_layer;
+    const { palette, key } = painted_places(this.look.colouring, this.summary, this.audit);
+    set_palette(this.place_material, palette);
+    const buffer = new RoadBuffer();
+    for (let l = 0; l < this.place_end.length; l++) {
+      const height = Math.min(255, Math.round(115 * (this.moves.layer_height[l] ?? 0.2)));
+      for (const k of order.subarray(layer_start[l]!, layer_start[l + 1]!)) {
+        if (places.kind[k] !== wanted || (kind === "zipper" && places.visibility[k]! <= 0.02)) continue;
+        const width = kind === "zipper" ? 45 : Math.min(140, 32 + 180 * Math.sqrt(places.mm3[k]!));
+        buffer.put(places.from, 3 * k, places.to, 3 * k, Math.round(width), height, false, k);
+      }
+      this.place_end[l] = buffer.count;
+    }
+    const n = buffer.count;
     this.place_index = buffer.move.subarray(0, n);
-    this.places = new RoadChunk(buffer.words.subarray(0, words_per_road * n), this.place_index, this.place_material);
-    index.forEach((k, i) => { this.places!.colours[i] = colour(k); });
+    this.places = new RoadChunk(buffer.words.subarray(0, words_per_road * n), this.place_index, key, this.place_material);
     this.root.add(this.places.mesh);
     this.show_step();
   }

@@ -2,10 +2,11 @@
 // the vertex shader decides, so that no corner is spent on what looks away. The shader reads the roads from a texture by
 // the number of the vertex: one copy of 32 bytes a road, and no instances, of which drawing in software is slow.
 import * as THREE from "three";
+import type { Palette } from "../model/colouring.ts";
 import { words_per_road } from "../model/roads.ts";
 
 const vertex = /* glsl */ `
-  uniform highp usampler2D roads; uniform lowp sampler2D colours;
+  uniform highp usampler2D roads; uniform highp usampler2D keys; uniform lowp sampler2D palette; uniform int column; uniform int row;
   uniform float cut_below_z; uniform vec2 middle; uniform float rampart; uniform float grow; uniform float detail;
   out vec3 shade;
   void main() {
@@ -39,7 +40,8 @@ const vertex = /* glsl */ `
     vec3 right = vec3(viewMatrix[0][0], viewMatrix[1][0], viewMatrix[2][0]), top = vec3(viewMatrix[0][1], viewMatrix[1][1], viewMatrix[2][1]);
     vec3 sun = normalize(eye + 0.55 * top - 0.45 * right);
     float light = 0.42 + 0.46 * max(0.0, dot(normal, sun)) + 0.14 * normal.z;
-    shade = texelFetch(colours, ivec2(road & 511, road >> 9), 0).rgb * light;
+    uint key = texelFetch(keys, ivec2(road & 511, road >> 9), 0).r;
+    shade = texelFetch(palette, ivec2((key >> column) & 255u, row < 0 ? 0u : (key >> row) & 255u), 0).rgb * light;
     gl_Position = projectionMatrix * viewMatrix * vec4(p, 1.0);
     // The near half of the rampart opens like a doll's house; what lies below the lowest layer shown is gone.
     bool near_half = dot(centre.xy - middle, eye.xy) > 0.0 && length(eye.xy) > 0.25;
@@ -49,12 +51,24 @@ const fragment = /* glsl */ `
   in vec3 shade; out vec4 colour_out;
   void main() { colour_out = vec4(shade, 1.0); }`;
 
-export type RoadMaterial = THREE.ShaderMaterial & { uniforms: Record<"cut_below_z" | "middle" | "rampart" | "grow" | "detail", THREE.IUniform> };
+export type RoadMaterial = THREE.ShaderMaterial & { uniforms: Record<"cut_below_z" | "middle" | "rampart" | "grow" | "detail" | "palette" | "column" | "row", THREE.IUniform> };
 
 export function road_material(): RoadMaterial {
-  const uniforms = { cut_below_z: { value: -1e9 }, middle: { value: new THREE.Vector2() }, rampart: { value: 1 }, grow: { value: 0 }, detail: { value: 1 } };
+  const uniforms = { cut_below_z: { value: -1e9 }, middle: { value: new THREE.Vector2() }, rampart: { value: 1 }, grow: { value: 0 }, detail: { value: 1 }, palette: { value: null }, column: { value: 0 }, row: { value: -1 } };
   return new THREE.ShaderMaterial({ vertexShader: vertex, fragmentShader: fragment, uniforms, glslVersion: THREE.GLSL3, side: THREE.DoubleSide }) as RoadMaterial;
 }
+
+/** Has all roads of a material take their colours from this palette. */
+export function set_palette(material: RoadMaterial, { colours, column, row }: Palette): void {
+  const { uniforms } = material;
+  dispose_palette(material);
+  const texture = new THREE.DataTexture(new Uint8Array(colours.buffer, colours.byteOffset, colours.byteLength), 256, colours.length / 256, THREE.RGBAFormat, THREE.UnsignedByteType);
+  texture.needsUpdate = true;
+  uniforms.palette.value = texture;
+  uniforms.column.value = 8 * column;
+  uniforms.row.value = row === null ? -1 : 8 * row;
+}
+export function dispose_palette(material: RoadMaterial): void { (material.uniforms.palette.value as THREE.Texture | null)?.dispose(); }
 
 const texture_roads = 512; // roads in a row of the textures
 export const chunk_roads = 1 << 17; // roads drawn at once; 2 million moves make no more than 16 draw calls
@@ -74,29 +88,31 @@ function index(): THREE.BufferAttribute {
 /** A fixed number of roads, at most chunk_roads; `show` draws the first so many. */
 export class RoadChunk {
   readonly mesh: THREE.Mesh<THREE.BufferGeometry, RoadMaterial>;
-  readonly colours: Uint32Array; // r, g, b, a bytes of each road; call repaint() after writing
   shown = 0;
-  painted = -1; // which colouring the colours are of
-  private readonly colour_texture: THREE.DataTexture;
+  private readonly keys: Uint32Array; // of each road
+  private readonly key_texture: THREE.DataTexture;
   private readonly road_texture: THREE.DataTexture;
 
-  constructor(words: Uint32Array, readonly move: Uint32Array, material: RoadMaterial) {
+  /** `move` tells what each road is of, `key_of` the key of that (model/colouring.ts). */
+  constructor(words: Uint32Array, readonly move: Uint32Array, key_of: (move: number) => number, material: RoadMaterial) {
     const rows = Math.max(1, Math.ceil(move.length / texture_roads));
     const padded = new Uint32Array(words_per_road * texture_roads * rows);
     padded.set(words);
     this.road_texture = new THREE.DataTexture(padded, 2 * texture_roads, rows, THREE.RGBAIntegerFormat, THREE.UnsignedIntType);
     this.road_texture.internalFormat = "RGBA32UI";
-    this.colours = new Uint32Array(texture_roads * rows);
-    this.colour_texture = new THREE.DataTexture(new Uint8Array(this.colours.buffer), texture_roads, rows, THREE.RGBAFormat, THREE.UnsignedByteType);
+    this.keys = new Uint32Array(texture_roads * rows);
+    this.key_texture = new THREE.DataTexture(this.keys, texture_roads, rows, THREE.RedIntegerFormat, THREE.UnsignedIntType);
+    this.key_texture.internalFormat = "R32UI";
+    this.set_keys(key_of);
     const geometry = new THREE.BufferGeometry();
     geometry.setIndex(index());
     const own = material.clone() as RoadMaterial;
-    own.uniforms = { ...material.uniforms, roads: { value: this.road_texture }, colours: { value: this.colour_texture } } as RoadMaterial["uniforms"];
+    own.uniforms = { ...material.uniforms, roads: { value: this.road_texture }, keys: { value: this.key_texture } } as RoadMaterial["uniforms"];
     this.mesh = new THREE.Mesh(geometry, own);
     this.mesh.frustumCulled = false;
     this.mesh.matrixAutoUpdate = false;
     this.mesh.visible = false;
-    this.road_texture.needsUpdate = this.colour_texture.needsUpdate = true;
+    this.road_texture.needsUpdate = true;
   }
 
   show(count: number): void {
@@ -105,7 +121,11 @@ export class RoadChunk {
     this.mesh.visible = count > 0;
   }
 
-  repaint(): void { this.colour_texture.needsUpdate = true; }
+  set_keys(key_of: (move: number) => number): void {
+    const { keys, move } = this;
+    for (let k = 0; k < move.length; k++) keys[k] = key_of(move[k]!);
+    this.key_texture.needsUpdate = true;
+  }
 
   dispose(): void {
     this.mesh.removeFromParent();
@@ -113,6 +133,6 @@ export class RoadChunk {
     this.mesh.geometry.dispose();
     this.mesh.material.dispose();
     this.road_texture.dispose();
-    this.colour_texture.dispose();
+    this.key_texture.dispose();
   }
 }

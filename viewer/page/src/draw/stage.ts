@@ -59,7 +59,7 @@ export class Stage {
   /** Has the shaders compiled while the data are on their way. */
   private compile_early(): Promise<unknown> {
     const scene = new THREE.Scene();
-    const roads = new RoadChunk(new Uint32Array(8), new Uint32Array(1), road_material());
+    const roads = new RoadChunk(new Uint32Array(8), new Uint32Array(1), () => 0, road_material());
     const tip = new THREE.InstancedMesh(new THREE.SphereGeometry(), solid_material(0.7, false), 1);
     tip.setColorAt(0, new THREE.Color());
     scene.add(roads.mesh, tip, new THREE.Mesh(new THREE.PlaneGeometry(), flat_material("#000")), new THREE.Sprite());

@@ -1,4 +1,8 @@
-// Colourings: how a road gets its colour, and the legend that tells it. Pure: moves and audit in, colours out.
+// Colourings: how a road gets its colour, and the legend that tells it. Pure: moves and audit in, keys and colours out.
+//
+//   move  ->  its key, the same for all colourings  ->  the colouring's palette  ->  colour
+//
+// The graphics card looks keys up, so that another colouring costs another palette, however many roads there are.
 import { flag, type Audit, type Kind, type Moves, type Summary } from "../data/print.ts";
 import { css, heat, mix, nozzle_colours, parse_colour, rgba, viridis, type Rgba } from "./palette.ts";
 
@@ -30,61 +34,83 @@ export function role_colour(role: string): Rgba {
 const neutral = rgba(176, 178, 182);
 const grey = rgba(150, 152, 158);
 
-export interface Painted { colour: (move: number) => Rgba; legend: Legend }
-
-/** Speed at which the ramp ends: what 98 % of the plastic is laid below, so that one fast move does not flatten the rest. */
-export function top_speed(moves: Moves): number {
-  const histogram = new Uint32Array(65536);
-  let laid = 0;
-  for (let i = 0; i < moves.count; i++) if (moves.flags[i]! & flag.lays) { histogram[moves.speed[i]!]!++; laid++; }
-  let below = 0;
-  for (let s = 0; s < 65536; s++) { below += histogram[s]!; if (below >= 0.98 * laid) return Math.max(10, s); }
-  return 65535;
-}
-
 const strip = (ramp: Uint32Array) => Array.from({ length: 9 }, (_, i) => css(ramp[Math.round((i / 8) * 255)]!));
 
-export function painted(colouring: Colouring, summary: Summary, moves: Moves, audit: Audit | null): Painted {
-  const nozzles = nozzle_colours(summary.nozzles.map((n) => n.colour));
-  const { tool, role, flags, speed } = moves;
-  const visible = audit?.visibility;
+/** What is told of all plastic laid: found once, for it takes a pass over all moves. */
+export interface Laid {
+  roles: number[]; // ascending
+  top_speed: number; // 0.1 mm/s: where the ramp ends; 98 % is laid below, so that one fast move does not flatten the rest
+  thrown_away: boolean; // some of it is
+}
+export function laid_of(moves: Moves): Laid {
+  const { role, flags, speed, count } = moves, speeds = new Uint32Array(65536), roles = new Uint32Array(256);
+  let all = 0, auxiliary = 0;
+  for (let i = 0; i < count; i++) {
+    if (!(flags[i]! & flag.lays)) continue;
+    speeds[speed[i]!]!++;
+    roles[role[i]!]!++;
+    auxiliary |= flags[i]! & flag.auxiliary;
+    all++;
+  }
+  let top_speed = 0;
+  for (let below = speeds[0]!; top_speed < 65535 && below < 0.98 * all; ) below += speeds[++top_speed]!;
+  return { roles: [...roles.keys()].filter((r) => roles[r]! > 0), top_speed: Math.max(10, top_speed), thrown_away: auxiliary !== 0 };
+}
+
+/** The bytes of a road's key, from the lowest: what any colouring asks of it. */
+export enum KeyByte { plastic, role, speed, visibility }
+
+/** The key of a move's road. Plastic: 2 x tool + 1 where it is thrown away; speed and visibility in 255ths; where there is
+ *  no audit all is in full sight. */
+export function road_keys(moves: Moves, laid: Laid, visibility: Uint8Array | undefined): (move: number) => number {
+  const { tool, role, speed, flags } = moves;
+  return (i) => {
+    const thrown = (flags[i]! & flag.auxiliary) !== 0 ? 1 : 0;
+    const fast = Math.min(255, Math.round((255 * speed[i]!) / laid.top_speed)), seen = visibility ? visibility[i]! : 255;
+    return ((2 * tool[i]! + thrown) | (role[i]! << 8) | (fast << 16) | (seen << 24)) >>> 0;
+  };
+}
+
+/** How keys become colours: rows of 256, the column told by one byte of the key, the row by another. */
+export interface Palette { colours: Uint32Array; column: KeyByte; row: KeyByte | null }
+export interface Painted { palette: Palette; legend: Legend }
+
+const one_row = (colours: Uint32Array, column: KeyByte): Palette => ({ colours, column, row: null });
+
+export function painted(colouring: Colouring, summary: Summary, laid: Laid, audited: boolean): Painted {
   if (colouring === "role") {
-    const table = summary.roles.map(role_colour);
-    const used = new Set<number>();
-    for (let i = 0; i < moves.count; i++) if (flags[i]! & flag.lays) used.add(role[i]!);
-    return { colour: (i) => table[role[i]!] ?? grey, legend: { entries: [...used].sort((a, b) => a - b).map((r) => ({ label: (summary.roles[r] ?? "?").replace(/_/g, " "), colour: css(table[r] ?? grey) })) } };
+    const name = (r: number) => (summary.roles[r] ?? "?").replace(/_/g, " ");
+    const table = Uint32Array.from({ length: 256 }, (_, r) => (r < summary.roles.length ? role_colour(summary.roles[r]!) : grey));
+    return { palette: one_row(table, KeyByte.role), legend: { entries: laid.roles.map((r) => ({ label: name(r), colour: css(table[r]!) })) } };
   }
-  if (colouring === "speed") {
-    const top = top_speed(moves);
-    return { colour: (i) => viridis[Math.min(255, Math.round((255 * speed[i]!) / top))]!, legend: { entries: [], scale: { from: "0", to: `${Math.round(top / 10)} mm/s`, ramp: strip(viridis) } } };
-  }
-  if (colouring === "visibility" && visible) {
-    return { colour: (i) => viridis[visible[i]!]!, legend: { entries: [], scale: { from: "hidden", to: "in full sight", ramp: strip(viridis) } } };
-  }
+  if (colouring === "speed") return { palette: one_row(viridis, KeyByte.speed), legend: { entries: [], scale: { from: "0", to: `${Math.round(laid.top_speed / 10)} mm/s`, ramp: strip(viridis) } } };
+  if (colouring === "visibility" && audited) return { palette: one_row(viridis, KeyByte.visibility), legend: { entries: [], scale: { from: "hidden", to: "in full sight", ramp: strip(viridis) } } };
   // Roads in the colours of their nozzles: plainly, or pale under the damage that is drawn on them. What lies hidden is darker.
+  const nozzles = nozzle_colours(summary.nozzles.map((n) => n.colour));
   const pale = colouring === "smear" || colouring === "hole" || colouring === "zipper";
-  const shades = nozzles.flatMap((c) => {
+  const colours = new Uint32Array(256 * Math.max(1, 2 * nozzles.length));
+  nozzles.forEach((c, tool) => {
     const base = pale ? mix(c, neutral, 0.78) : c;
-    const thrown = mix(base, neutral, pale ? 0.5 : 0.6);
-    return [base, thrown].map((b) => Uint32Array.from({ length: 16 }, (_, v) => mix(rgba(0, 0, 0), b, visible ? 0.74 + (0.26 * v) / 15 : 1)));
+    const shades = Array.from({ length: 16 }, (_, v) => mix(rgba(0, 0, 0), base, 0.74 + (0.26 * v) / 15));
+    for (let v = 0; v < 256; v++) colours[512 * tool + v] = shades[v >> 4]!;
+    colours.fill(mix(base, neutral, pale ? 0.5 : 0.6), 512 * tool + 256, 512 * tool + 512);
   });
-  const colour = (i: number) => shades[2 * tool[i]! + (flags[i]! & flag.auxiliary ? 1 : 0)]![visible && !(flags[i]! & flag.auxiliary) ? visible[i]! >> 4 : 15]!;
-  const waste = flag.auxiliary | flag.lays;
   const entries: LegendEntry[] = summary.nozzles.map((n, i) => ({ label: `Extruder ${i + 1}${n.filament ? `, ${n.filament}` : ""}`, colour: css(pale ? mix(nozzles[i]!, neutral, 0.78) : nozzles[i]!) }));
-  if (flags.some((f) => (f & waste) === waste)) entries.push({ label: "thrown away", colour: css(mix(nozzles[0]!, neutral, pale ? 0.9 : 0.6)) });
+  if (laid.thrown_away) entries.push({ label: "thrown away", colour: css(mix(nozzles[0]!, neutral, pale ? 0.9 : 0.6)) });
   if (colouring === "look") entries.push({ label: "smears, drawn wider than they are", colour: "" });
   const scale = colouring === "smear" || colouring === "hole" ? { from: "faint", to: "0.1 mm³", ramp: strip(heat) }
     : colouring === "zipper" ? { from: "hidden", to: "in full sight", ramp: strip(heat) } : undefined;
-  return { colour, legend: scale ? { entries, scale } : { entries } };
+  return { palette: { colours, column: KeyByte.visibility, row: KeyByte.plastic }, legend: scale ? { entries, scale } : { entries } };
 }
 
-/** Colour of a place: by how much is to be seen of it, or as the plastic that oozed. */
-export function place_colour(colouring: Colouring, summary: Summary, audit: Audit): (place: number) => Rgba {
+/** Colours of places: by how much is to be seen of one, or as the plastic that oozed; their keys are columns. */
+export function painted_places(colouring: Colouring, summary: Summary, audit: Audit): { palette: Palette; key: (place: number) => number } {
   const { mm3, visibility, nozzle } = audit.places;
   if (colouring === "look") {
-    const nozzles = nozzle_colours(summary.nozzles.map((n) => n.colour));
-    return (k) => nozzles[nozzle[k]!] ?? grey;
+    const colours = new Uint32Array(256).fill(grey);
+    colours.set(nozzle_colours(summary.nozzles.map((n) => n.colour)));
+    return { palette: one_row(colours, 0), key: (k) => nozzle[k]! };
   }
-  if (colouring === "zipper") return (k) => heat[Math.min(255, Math.round(255 * visibility[k]!))]!;
-  return (k) => heat[Math.min(255, Math.round(255 * Math.sqrt(mm3[k]! / 0.1)))]!;
+  const share = colouring === "zipper" ? (k: number) => visibility[k]! : (k: number) => Math.sqrt(mm3[k]! / 0.1);
+  return { palette: one_row(heat, 0), key: (k) => Math.min(255, Math.round(255 * share(k))) };
 }

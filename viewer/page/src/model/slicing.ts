@@ -61,5 +61,6 @@ export function found(option: Option, search: string): boolean {
 
 export const title_of = (name: string) => { const t = name.replace(/_/g, " "); return t[0]!.toUpperCase() + t.slice(1); };
 
-const mesh_names = /\.(stl|obj|3mf|amf|ply)$/i, gcode_names = /\.(gcode|gco|g|nc|ngc|txt)$/i;
-export const kind_of_file = (name: string): "mesh" | "gcode" | null => (mesh_names.test(name) ? "mesh" : gcode_names.test(name) ? "gcode" : null);
+export type FileKind = "mesh" | "gcode" | "printer" | "unknown";
+const endings: [FileKind, RegExp][] = [["mesh", /\.(stl|obj|3mf|amf|ply)$/i], ["gcode", /\.(gcode|gco|g|nc|ngc|txt)$/i], ["printer", /\.toml$/i]];
+export const kind_of_file = (name: string): FileKind => endings.find(([, ending]) => ending.test(name))?.[0] ?? "unknown";

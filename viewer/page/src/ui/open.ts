@@ -1,12 +1,18 @@
 // Opening files: by the file dialog or dropped anywhere on the page.
-import { kind_of_file } from "../model/slicing.ts";
+import { kind_of_file, type FileKind } from "../model/slicing.ts";
 import { el } from "./dom.ts";
 
 export interface Opener { input: HTMLInputElement; curtain: HTMLElement; pick: () => void }
 
-export function opener(opened: (gcode: File[], meshes: File[], unknown: File[]) => void): Opener {
-  const sort = (files: File[]) => opened(files.filter((f) => kind_of_file(f.name) === "gcode"), files.filter((f) => kind_of_file(f.name) === "mesh"), files.filter((f) => !kind_of_file(f.name)));
-  const input = el("input", { type: "file", multiple: true, id: "file", class: "unseen", tabindex: -1, "aria-label": "Files to open", accept: ".gcode,.gco,.g,.nc,.stl,.obj,.3mf,.amf,.ply" });
+export type Opened = Record<FileKind, File[]>;
+
+export function opener(opened: (files: Opened) => void): Opener {
+  const sort = (files: File[]) => {
+    const sorted: Opened = { mesh: [], gcode: [], printer: [], unknown: [] };
+    for (const f of files) sorted[kind_of_file(f.name)].push(f);
+    opened(sorted);
+  };
+  const input = el("input", { type: "file", multiple: true, id: "file", class: "unseen", tabindex: -1, "aria-label": "Files to open", accept: ".gcode,.gco,.g,.nc,.stl,.obj,.3mf,.amf,.ply,.toml" });
   input.addEventListener("change", () => { sort([...(input.files ?? [])]); input.value = ""; });
   const curtain = el("div", { class: "curtain", hidden: true }, el("p", {}, "Drop G-code to look at it, meshes to slice them"));
   let depth = 0;

@@ -5,7 +5,12 @@ import { el, field, option as choice_of } from "./dom.ts";
 import { option_field, type OptionField } from "./option_field.ts";
 import { amount } from "./words.ts";
 
-export interface Slicing { element: HTMLElement; add_mesh: (mesh: Mesh) => void }
+export interface Slicing {
+  element: HTMLElement;
+  add_mesh: (mesh: Mesh) => void;
+  /** Takes a printer's profile and chooses it; what is wrong with it is told at the printer. */
+  add_printer: (file: File) => Promise<void>;
+}
 
 const protections: [string, string][] = [["full", "full: azimuth, rampart, planner"], ["rampart", "azimuth and rampart"], ["none", "none"]];
 
@@ -15,7 +20,8 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
   const fields = new Map<string, OptionField[]>();
 
   const parts = el("ul", { class: "parts" });
-  const printer = el("select", { id: "printer", change: () => { choice = with_printer(choice, profiles, printer.value); refresh(); } });
+  const printer = el("select", { id: "printer", "aria-describedby": "printer-error", change: () => { complain_of_printer(""); choice = with_printer(choice, profiles, printer.value); refresh(); } });
+  const printer_error = el("small", { class: "error", id: "printer-error", role: "alert", hidden: true });
   const print = el("select", { id: "print-settings", change: () => { choice.print = print.value; refresh(); } });
   const protect = el("select", { id: "protect", change: () => { choice.protect = protect.value; refresh(); } }, ...protections.map(([v, t]) => choice_of(v, t)));
   const materials = el("div", { class: "materials" });
@@ -26,8 +32,15 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
   const go = el("button", { type: "submit", class: "primary", id: "slice" }, "Slice");
   const form = el("form", { class: "pane slicing", submit: (e: Event) => { e.preventDefault(); void slice(); } },
     el("h3", {}, "Parts"), parts, el("button", { type: "button", class: "quiet", id: "add-parts", click: pick }, "Add meshes…"),
-    el("div", { class: "grid2" }, field("Printer", printer), field("Print settings", print)), materials, field("Protection of colours", protect),
+    el("div", { class: "grid2" }, field("Printer", printer), field("Print settings", print)), printer_error,
+    el("button", { type: "button", class: "quiet", id: "add-printer", title: "A printer of your own: its profile, a .toml file", click: pick }, "Add a printer (.toml)…"), materials, field("Protection of colours", protect),
     el("h3", {}, "Options"), few, el("details", { id: "all-options" }, el("summary", {}, "All options"), search, all), error, go);
+
+  function complain_of_printer(message: string): void {
+    printer_error.textContent = message;
+    printer_error.hidden = message === "";
+    if (message) { printer.setAttribute("aria-invalid", "true"); printer.focus(); } else printer.removeAttribute("aria-invalid");
+  }
 
   function complain(e: unknown): void {
     const refusal = e instanceof Refusal ? e : new Refusal(String(e), 0);
@@ -36,16 +49,19 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
       if (![azimuth_option.name, ...options_that_matter].includes(refusal.field!)) document.getElementById("all-options")!.setAttribute("open", "");
       at[0]!.complain(refusal.message);
     }
-    const control = { printer, print, protect }[refusal.field ?? ""];
+    if (refusal.field === "printer") complain_of_printer(refusal.message);
+    const control = { print, protect }[refusal.field ?? ""];
     control?.setAttribute("aria-invalid", "true");
-    error.textContent = at ? "" : refusal.message;
-    error.hidden = at !== undefined;
+    const told = at !== undefined || refusal.field === "printer";
+    error.textContent = told ? "" : refusal.message;
+    error.hidden = told;
   }
 
   async function slice(): Promise<void> {
     error.hidden = true;
     for (const f of fields.values()) f.forEach((one) => one.complain(""));
-    for (const c of [printer, print, protect]) c.removeAttribute("aria-invalid");
+    complain_of_printer("");
+    for (const c of [print, protect]) c.removeAttribute("aria-invalid");
     if (choice.meshes.length === 0) { complain(new Refusal("Add the meshes to print first.", 0)); return; }
     go.disabled = true;
     try { started((await api.slice(job_request(choice))).id); } catch (e) { complain(e); } finally { go.disabled = false; }
@@ -90,14 +106,17 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
     for (const o of options) fields.get(o.name)?.forEach((f) => f.show(choice.changed.get(o.name), standing_value(o, profiles, choice)));
   }
 
+  const printers = () => profiles.filter((p) => p.group === "printer" && !p.audit_only);
+  const fill_printers = () => printer.replaceChildren(...printers().map((p) => choice_of(p.name, p.name)));
+
   async function load(): Promise<void> {
     const [got_options, got_profiles, got_meshes] = await Promise.all([api.options(), api.profiles(), api.meshes()]);
     options = got_options;
     profiles = got_profiles;
-    const printers = profiles.filter((p) => p.group === "printer" && !p.audit_only);
-    printer.replaceChildren(...printers.map((p) => choice_of(p.name, p.name)));
+    fill_printers();
     print.replaceChildren(...profiles.filter((p) => p.group === "print").map((p) => choice_of(p.name, p.name)));
-    const start = printers.find((p) => p.chosen) ?? printers.find((p) => p.name === "replicator-dual") ?? printers.find((p) => (p.extruders ?? 1) > 1) ?? printers[0];
+    const all_printers = printers();
+    const start = all_printers.find((p) => p.chosen) ?? all_printers.find((p) => p.name === "replicator-dual") ?? all_printers.find((p) => (p.extruders ?? 1) > 1) ?? all_printers[0];
     if (start) choice = with_printer(choice, profiles, start.name);
     for (const name of options_that_matter) { const o = options.find((x) => x.name === name); if (o) add_option(o, few, "option"); }
     const azimuth = option_field(azimuth_option, "option", (text) => { choice.azimuth = text ?? ""; refresh(); });
@@ -119,6 +138,19 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
     choice.meshes.push({ id: mesh.id, wanted: choice.meshes.length });
   }
 
-  void load().catch(complain);
-  return { element: form, add_mesh(mesh) { take(mesh); refresh(); } };
+  async function add_printer(file: File): Promise<void> {
+    complain_of_printer("");
+    await loaded;
+    try {
+      const { name } = await api.add_printer(file);
+      profiles = await api.profiles();
+      fill_printers();
+      if (!printers().some((p) => p.name === name)) throw new Refusal(`${name}: this profile serves only to audit G-code`, 0, "printer");
+      choice = with_printer(choice, profiles, name);
+    } catch (e) { complain(e); }
+    refresh();
+  }
+
+  const loaded = load().catch(complain);
+  return { element: form, add_mesh(mesh) { take(mesh); refresh(); }, add_printer };
 }

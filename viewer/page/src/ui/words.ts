@@ -8,6 +8,9 @@ export function duration(seconds: number): string {
   return m > 0 ? `${m} min ${String(s % 60).padStart(2, "0")} s` : `${s} s`;
 }
 
+/** What is wrong with a file, after its name unless the words name it. */
+export const named = (name: string, words: string) => (words.includes(name) ? words : `${name}: ${words}`);
+
 /** Three digits that matter; thousands apart. */
 export function amount(x: number): string {
   if (!Number.isFinite(x)) return "–";
