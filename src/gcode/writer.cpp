@@ -139,6 +139,7 @@ Machine::Feed GcodeWriter::Print::begin_road(const Layer& layer, const Extruder&
   if (role != road.role) {
     role = road.role;
     text.line(fmt::format(";TYPE:{}", role_name(road.role)));
+    if (road.role == Role::rampart) text.line(";RAMPART_WALL");  // viewers of others know no such type
   }
   if (width_mm != road.width_mm) {
     width_mm = road.width_mm;

@@ -93,28 +93,6 @@ void mark_start_code(GcodePrint& print) {
   for (auto move = print.moves.begin(); move != told; ++move) move->role = Role::custom;
 }
 
-/// A number of the configuration block; nothing where it does not tell.
-std::optional<double> configured(const GcodeFacts& facts, std::string_view key) {
-  const auto entry = std::ranges::find(facts.config, key, &IniEntry::key);
-  return entry == facts.config.end() ? std::nullopt : number<double>(entry->value);
-}
-
-/// Our own files call the walls of a rampart Skirt/Brim, as other programs know no better word. There is no skirt
-/// beside a rampart, so what goes on above the height of a skirt is one; on the bed a brim may be within it.
-void mark_rampart(GcodePrint& print) {
-  if (print.facts.dialect != Dialect::cleancolor) return;
-  const double skirt_layers = std::max(1., configured(print.facts, "skirt_height").value_or(1));
-  const bool no_brim = configured(print.facts, "brim_width") == 0;
-  bool stands = false;
-  for (std::size_t i = 0; i < print.moves.size() && !stands; ++i) {
-    const GcodeMove& m = print.moves[i];
-    stands = m.role == Role::skirt_brim && m.layer >= skirt_layers && lays_plastic(print, i);
-  }
-  if (!stands) return;
-  for (GcodeMove& m : print.moves)
-    if (m.role == Role::skirt_brim && (m.layer > 0 || no_brim)) m.role = Role::rampart;
-}
-
 }  // namespace
 
 GcodePrint read_gcode(std::string text, const std::string& name, const Progress& progress) {
@@ -130,7 +108,6 @@ GcodePrint read_gcode(std::string text, const std::string& name, const Progress&
   if (!any_plastic(print)) throw Error(fmt::format("{}: no move lays plastic; is this G-code of a printer?", name));
   mark_start_code(print);
   assign_layers(print, filament_area_mm2);
-  mark_rampart(print);
   return print;
 }
 

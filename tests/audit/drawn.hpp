@@ -73,6 +73,7 @@ class Drawing {
   Drawing& wall() { return type("External perimeter"); }
   Drawing& infill() { return type("Internal infill"); }
   Drawing& skirt() { return type("Skirt/Brim"); }
+  Drawing& rampart() { return skirt().line(";RAMPART_WALL"); }
 
   /// Another nozzle; quiet: "T1 S1", the carriage stays on any firmware.
   Drawing& tool(int number, bool quiet = false) {

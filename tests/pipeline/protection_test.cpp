@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "audit/audit.hpp"
 #include "model/options.hpp"
@@ -60,6 +61,33 @@ TEST(Protection, OneColourIsNeitherTurnedNorWalledIn) {
   // Nor where a rampart is asked for.
   request.config.rampart = RampartShape::vertical;
   EXPECT_EQ(sliced(request).summary.protection.rampart, RampartShape::off);
+}
+
+/// By layer, what plastic beside the part's is taken for when the print is read.
+std::vector<std::set<Role>> auxiliary_roles(const Sliced& print) {
+  const GcodePrint read = read_gcode(print.text, "out.gcode");
+  std::vector<std::set<Role>> roles(read.layers.size());
+  for (std::size_t i = 0; i < read.moves.size(); ++i)
+    if (const GcodeMove& m = read.moves[i]; lays_plastic(read, i) && is_auxiliary(m.role) && m.role != Role::custom)
+      roles[m.layer].insert(m.role);
+  return roles;
+}
+
+TEST(Protection, RampartsAreReadAsSuchWhateverSkirtAndBrimAre) {
+  const TestFolder folder;
+  using enum Role;
+  for (const char* option : {"skirt_height=1000", "brim_type=no_brim", "rampart_brim_width=0", "brim_width=3"}) {
+    SCOPED_TRACE(option);
+    const Config config = replicator({option});
+    const auto roles =
+        auxiliary_roles(sliced(request_for(two_blocks(folder, 30, 20, 2), config, folder.path("a.gcode"))));
+    EXPECT_TRUE(roles.front().contains(rampart));
+    EXPECT_EQ(roles.front().contains(skirt_brim), std::string(option) != "rampart_brim_width=0");
+    for (std::size_t k = 1; k < roles.size(); ++k) EXPECT_EQ(roles[k], std::set{rampart}) << "layer " << k;
+  }
+  const auto bare = auxiliary_roles(sliced(request_for(
+      two_blocks(folder, 30, 20, 2), replicator({"rampart=off", "skirt_height=3"}), folder.path("a.gcode"))));
+  for (const std::set<Role>& roles : bare) EXPECT_FALSE(roles.contains(rampart));
 }
 
 TEST(Protection, NozzlesThatLeaveThePrintNeedNone) {

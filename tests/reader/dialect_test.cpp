@@ -117,8 +117,8 @@ TEST(Comments, TheToolOfSimplify3DIsHeightAndWidth) {
 }
 
 TEST(Comments, OurWallsAreRampartsAndOurRefillsAreRefills) {
-  EXPECT_EQ(role_after({"TYPE:Perimeter", "RAMPART_WALL:2"}), Role::rampart);
-  EXPECT_EQ(role_after({"RAMPART_WALL:2", "REFILL_START"}), Role::refill);
+  EXPECT_EQ(role_after({"TYPE:Perimeter", "RAMPART_WALL"}), Role::rampart);
+  EXPECT_EQ(role_after({"RAMPART_WALL", "REFILL_START"}), Role::refill);
 }
 
 }  // namespace
