@@ -59,6 +59,8 @@ export class Viewer {
     this.select(null);
     for (const s of this.sides.splice(0)) s.view.dispose();
     for (const { name, source, summary, moves } of loaded) this.sides.push({ name, source, summary, moves, audit: null, trouble: "", view: new PrintView(summary, moves, this.stage, this.look) });
+    const top_speed = Math.max(...this.sides.map((s) => s.view.top_speed));
+    if (this.sides.length > 1) for (const s of this.sides) s.view.top_speed = top_speed;
     this.stage.views = this.sides.map((s) => s.view);
     this.from_layer = 0;
     if (this.first) {
@@ -137,6 +139,7 @@ export class Viewer {
     const spot = new THREE.Vector3();
     for (const c of [0, 1, 2]) spot.setComponent(c, (places.from[3 * k + c]! + places.to[3 * k + c]!) / 2);
     this.marker.place(spot);
+    this.stage.canvas.scrollIntoView({ block: "nearest" });
     side.view.scene.add(this.marker.object);
     this.fly_to(spot, side.summary);
     this.emit("selection");

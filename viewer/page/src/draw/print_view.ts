@@ -27,6 +27,7 @@ export class PrintView implements View {
   readonly scene = new THREE.Scene();
   readonly material = road_material();
   readonly place_material = road_material();
+  private shared_top_speed = 0;
   readonly idle: Idle;
   legend: Legend = { entries: [] };
   audit: Audit | null = null;
@@ -65,6 +66,13 @@ export class PrintView implements View {
     this.set_look(look);
     this.recolour();
     this.body.build((mesh) => stage.upload(mesh), () => stage.ask());
+  }
+
+  /** Where the ramp of speeds ends: of this print, or of all that are shown. 0.1 mm/s */
+  get top_speed(): number { return this.shared_top_speed || this.laid.top_speed; }
+  set top_speed(shared: number) {
+    this.shared_top_speed = shared;
+    this.recolour();
   }
 
   set_audit(audit: Audit): void {
@@ -206,7 +214,7 @@ export class PrintView implements View {
   }
 
   private recolour(): void {
-    const { palette, legend } = painted(this.look.colouring, this.summary, this.laid, this.audit !== null);
+    const { palette, legend } = painted(this.look.colouring, this.summary, this.laid, this.audit !== null, this.top_speed);
     set_palette(this.material, palette);
     this.legend = legend;
     this.build_places();

@@ -77,13 +77,17 @@ export interface Painted { palette: Palette; legend: Legend }
 
 const one_row = (colours: Uint32Array, column: KeyByte): Palette => ({ colours, column, row: null });
 
-export function painted(colouring: Colouring, summary: Summary, laid: Laid, audited: boolean): Painted {
+/** top_speed: where the ramp ends, the same for all prints that are shown; not below that of `laid`. */
+export function painted(colouring: Colouring, summary: Summary, laid: Laid, audited: boolean, top_speed = laid.top_speed): Painted {
   if (colouring === "role") {
     const name = (r: number) => (summary.roles[r] ?? "?").replace(/_/g, " ");
     const table = Uint32Array.from({ length: 256 }, (_, r) => (r < summary.roles.length ? role_colour(summary.roles[r]!) : grey));
     return { palette: one_row(table, KeyByte.role), legend: { entries: laid.roles.map((r) => ({ label: name(r), colour: css(table[r]!) })) } };
   }
-  if (colouring === "speed") return { palette: one_row(viridis, KeyByte.speed), legend: { entries: [], scale: { from: "0", to: `${Math.round(laid.top_speed / 10)} mm/s`, ramp: strip(viridis) } } };
+  if (colouring === "speed") {
+    const ramp = viridis.map((_, k) => viridis[Math.round((k * laid.top_speed) / top_speed)]!);
+    return { palette: one_row(ramp, KeyByte.speed), legend: { entries: [], scale: { from: "0", to: `${Math.round(top_speed / 10)} mm/s`, ramp: strip(viridis) } } };
+  }
   if (colouring === "visibility" && audited) return { palette: one_row(viridis, KeyByte.visibility), legend: { entries: [], scale: { from: "hidden", to: "in full sight", ramp: strip(viridis) } } };
   // Roads in the colours of their nozzles: plainly, or pale under the damage that is drawn on them. What lies hidden is darker.
   const nozzles = nozzle_colours(summary.nozzles.map((n) => n.colour));
