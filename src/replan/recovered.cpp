@@ -215,14 +215,14 @@ class Recovery {
     const auto index = take_move();
     if (!index) return;  // a speed alone
     const GcodeMove& move = print_.moves[*index];
-    const Vec3 from = print_.moves[*index - 1].to_mm;
+    const Vec3 from = *index > 0 ? print_.moves[*index - 1].to_mm : Vec3{};
     if (lays_plastic(print_, *index)) return lay(*index, move, from);
     go(move, from);
   }
 
   void go(const GcodeMove& move, Vec3 from) {
     breaks_ = true;
-    const bool across = from.x != move.to_mm.x || from.y != move.to_mm.y;
+    const bool across = from.x != move.to_mm.x || from.y != move.to_mm.y || (!move.known_start && move.names_xy);
     if (across && has_tool_) travelled_after_tool_ = true;
     if (across && !has_tool_ && !gap_.empty()) moved_among_notes_ = true;
     if (move.filament_mm != 0 && across)
