@@ -42,6 +42,7 @@ constexpr RefusedOption refused_options[] = {
     {"ooze_prevention", "standby temperatures are not re-planned yet; switch it off, a rampart is added"},
     {"infill_first", "infill before perimeters is not re-planned yet; switch it off in the slicer"},
     {"wipe", "wiping while retracting is not re-planned yet; switch it off in the slicer"},
+    {"wipe_tower", "prints with a wipe tower are not re-planned yet; slice without it, a rampart is added"},
     {"ironing", "ironing is not re-planned yet; switch it off in the slicer"},
 };
 
@@ -204,8 +205,12 @@ Config planning_config(const GcodePrint& print, const AuditMachine& machine, con
                             print.name));
   for (const IniEntry& entry : print.facts.config)
     for (const RefusedOption& option : refused_options)
-      if (entry.key == option.key && is_on(entry.value) && !(entry.key == "ironing" && entry.value == "0"))
+      if (entry.key == option.key && is_on(entry.value))
         throw Error(fmt::format("{}: {} = {}: {}", print.name, entry.key, entry.value, option.reason));
+  for (const IniEntry& entry : print.facts.config)
+    if (entry.key == "gcode_flavor" && (entry.value == "sailfish" || entry.value == "makerware"))
+      throw Error(fmt::format("{}: gcode_flavor = {}: it counts E for each tool; that is not re-planned yet", print.name,
+                              entry.value));
   Config config = with_ini(printer != nullptr ? *printer : Config{}, print.facts.config, print.name).config;
   const std::size_t nozzles = machine.nozzles.size();
   while (config.extruders.size() < nozzles) config.extruders.push_back(config.extruders.back());

@@ -163,8 +163,17 @@ class Recovery {
     gap_.push_back({raw_, at_, is_command});
   }
 
+  /// What was driven since the last road is no way to the next.
+  void leave_run() {
+    if (!r_.layers.empty() && !r_.layers.back().runs.empty())
+      run().leaving.insert(run().leaving.end(), way_.begin(), way_.end());
+    way_.clear();
+    back_after_ = 0;
+  }
+
   void mark_layer() {
     if (has_tool_) refuse(at_, "a layer begins after a tool change without a road between them");
+    leave_run();
     has_layer_mark_ = true;
     left_header_ = false;
     mark_in_gap_ = gap_.size();
@@ -189,9 +198,7 @@ class Recovery {
     if (line_.number < 0 || line_.number >= max_tools) refuse(at_, "a tool change that is not understood");
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
     if (moved_among_notes_) refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
-    if (!r_.layers.empty() && !r_.layers.back().runs.empty()) run().leaving = std::move(way_);
-    way_.clear();
-    back_after_ = 0;
+    leave_run();
     has_tool_ = true;
     breaks_ = true;
     tool_in_gap_ = gap_.size();

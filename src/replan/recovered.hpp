@@ -41,7 +41,7 @@ struct RecoveredRun {
   std::vector<RunRoad> roads;      // at least one
   std::vector<std::string> notes;  // comments that stand before it
   std::vector<FilePoint> way;      // passed on the way here in the file
-  std::vector<FilePoint> leaving;  // passed after it before the tool changes
+  std::vector<FilePoint> leaving;  // passed after it before the tool or the layer changes
   bool drawn_back = false;         // on the way here,
   std::size_t back_after = 0;      // where so many places of the way were passed
 };

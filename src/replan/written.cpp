@@ -158,9 +158,7 @@ class Writing {
     std::vector<char> is_written(source.runs.size(), 0);
     out_.header(source.header);
     const Extruder& e = config_.extruders[std::size_t(out_.tool())];
-    if (options_.as_in_file ? source.runs.front().drawn_back && planned.paths.front().extruder == out_.tool()
-                            : e.retract_layer_change)
-      draw_back();
+    if (options_.as_in_file ? source.runs.front().drawn_back : e.retract_layer_change) draw_back();
     z_mm_ = source.z_mm;
     out_.set_z(source.z_mm);
     for (const Path& path : planned.paths) {
@@ -206,7 +204,6 @@ class Writing {
   void go_as_in_file(const RecoveredRun& run, FilePoint start) {
     if (run.tool != out_.tool()) {
       draw_back_for_change();
-      for (const FilePoint p : run.leaving) out_.travel(p);
       out_.change_tool(run.tool);
       draw_back();
     }
@@ -228,6 +225,8 @@ class Writing {
       out_.set(recovered_.states[p.state]);
       out_.road(p.to, p.filament_e5, p.feed_mm_min);
     }
+    if (options_.as_in_file)
+      for (const FilePoint p : run.leaving) out_.travel(p);
   }
 
   /// The roads of the run as the path walks them.
