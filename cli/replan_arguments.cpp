@@ -10,7 +10,8 @@ namespace cleancolor {
 const char* const replan_description =
     "Gives G-code of another slicer the order, travel and rampart of this program; its paths and settings stay.\n"
     "\n"
-    "Every path is printed as it was sliced: its plastic, speed, fan and acceleration. New are the order of the paths,\n"
+    "Every path is printed as it was sliced: its plastic, speed, fan and acceleration. New are the order of the "
+    "paths,\n"
     "where loops begin, the ways between them, and the rampart around the part. So far for files of PrusaSlicer with\n"
     "several nozzles. What cannot be re-planned for sure is refused, with the reason; the result is read again and\n"
     "compared with the file before it is written.\n"
@@ -82,7 +83,8 @@ ReplanCommand replan_command(ReplanTexts texts) {
   command.keeps_order = keeps_order;
   command.protection = protection_of(texts.protect);
   const int ways_out = int(!command.output.empty()) + int(command.post_process) + int(command.dry_run);
-  if (ways_out != 1) throw Error("replan: say one of -o FILE, --post-process (the file itself) and --dry-run (nothing)");
+  if (ways_out != 1)
+    throw Error("replan: say one of -o FILE, --post-process (the file itself) and --dry-run (nothing)");
   require_threads(command.threads);
   return command;
 }

@@ -20,9 +20,9 @@
 namespace cleancolor {
 namespace {
 
-constexpr double detail_mm = 0.02;         // of recovered regions
-constexpr double seam_widths = 0.6;        // ends of a loop so near to its start are its seam
-constexpr double least_round = 8;          // a loop is so many times longer than its gap
+constexpr double detail_mm = 0.02;   // of recovered regions
+constexpr double seam_widths = 0.6;  // ends of a loop so near to its start are its seam
+constexpr double least_round = 8;    // a loop is so many times longer than its gap
 constexpr double same_width_mm = 0.02;
 constexpr double same_speed = 0.02;        // share
 constexpr double crack_mm = 0.05;          // between two colours is no air
@@ -72,19 +72,20 @@ int depth_of(const Path& path, const Zone* zone) {
   if (zone == nullptr) return 1;
   std::vector<double> depths;
   const std::size_t step = std::max<std::size_t>(1, path.points.size() / depth_samples);
-  for (std::size_t i = 0; i < path.points.size(); i += step) depths.push_back(distance_to(zone->region, path.points[i]));
+  for (std::size_t i = 0; i < path.points.size(); i += step)
+    depths.push_back(distance_to(zone->region, path.points[i]));
   std::ranges::nth_element(depths, depths.begin() + std::ptrdiff_t(depths.size() / 2));
   const double spacing = road_spacing_mm(path.road().width_mm, path.road().height_mm);
   const double inside = depths[depths.size() / 2] - path.road().width_mm / 2;
-  const bool overhangs = std::ranges::all_of(
-      path.stretches, [](const Stretch& s) { return s.road.role == Role::overhang_perimeter; });
+  const bool overhangs =
+      std::ranges::all_of(path.stretches, [](const Stretch& s) { return s.road.role == Role::overhang_perimeter; });
   return std::clamp(int(std::lround(inside / std::max(spacing, 0.05))), overhangs ? 0 : 1, fill_depth - 1);
 }
 
 /// Everything that stages of a print are planned from.
 struct Scene {
-  Slices slices;         // of the part
-  Slices around;         // the same with skirt and brim: what a rampart stands around
+  Slices slices;              // of the part
+  Slices around;              // the same with skirt and brim: what a rampart stands around
   std::vector<Layer> layers;  // their paths as in the file
 };
 
@@ -94,8 +95,8 @@ Polygons filled(const Polygons& region) {
   return united(outlines);
 }
 
-void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePrint& print,
-                   const AuditMachine& machine, Scene& scene) {
+void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
+                   Scene& scene) {
   const RecoveredLayer& layer = recovered.layers[k];
   std::vector<LaidRoad> roads;
   Polygons auxiliary;
@@ -157,13 +158,14 @@ void require_no_shield(const Scene& scene, const GcodePrint& print) {
     const std::vector<Path>& paths = scene.layers[k].paths;
     with_skirt += std::ranges::any_of(paths, [](const Path& p) { return p.road().role == Role::skirt_brim; });
     if (scene.slices.outlines[k].empty())
-      throw Error(fmt::format("{}: layer {} has nothing of the part; such files are not re-planned yet", print.name,
-                              k + 1));
+      throw Error(
+          fmt::format("{}: layer {} has nothing of the part; such files are not re-planned yet", print.name, k + 1));
   }
   if (with_skirt > shield_layers)
-    throw Error(fmt::format("{}: {} layers have a skirt: a shield; slice without it (draft_shield, skirt_height): a "
-                            "rampart is added that wipes nozzles, too",
-                            print.name, with_skirt));
+    throw Error(
+        fmt::format("{}: {} layers have a skirt: a shield; slice without it (draft_shield, skirt_height): a "
+                    "rampart is added that wipes nozzles, too",
+                    print.name, with_skirt));
 }
 
 /// As the writer would print it: never faster than the filament allows.
@@ -200,17 +202,18 @@ std::vector<Layer> in_plain_order(Scene scene, const PrintedRampart& rampart, co
 
 Config planning_config(const GcodePrint& print, const AuditMachine& machine, const Config* printer) {
   if (print.facts.config.empty() || print.facts.config_kind.empty())
-    throw Error(fmt::format("{}: it has no configuration block at its end; it is not known how far filament is drawn "
-                            "back. Export the G-code again with it",
-                            print.name));
+    throw Error(
+        fmt::format("{}: it has no configuration block at its end; it is not known how far filament is drawn "
+                    "back. Export the G-code again with it",
+                    print.name));
   for (const IniEntry& entry : print.facts.config)
     for (const RefusedOption& option : refused_options)
       if (entry.key == option.key && is_on(entry.value))
         throw Error(fmt::format("{}: {} = {}: {}", print.name, entry.key, entry.value, option.reason));
   for (const IniEntry& entry : print.facts.config)
     if (entry.key == "gcode_flavor" && (entry.value == "sailfish" || entry.value == "makerware"))
-      throw Error(fmt::format("{}: gcode_flavor = {}: it counts E for each tool; that is not re-planned yet", print.name,
-                              entry.value));
+      throw Error(fmt::format("{}: gcode_flavor = {}: it counts E for each tool; that is not re-planned yet",
+                              print.name, entry.value));
   Config config = with_ini(printer != nullptr ? *printer : Config{}, print.facts.config, print.name).config;
   const std::size_t nozzles = machine.nozzles.size();
   while (config.extruders.size() < nozzles) config.extruders.push_back(config.extruders.back());
@@ -305,8 +308,8 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
   const auto plan = [&](int k) {
     Layer layer = with_walls(std::move(scene.layers[std::size_t(k)]), *rampart, config);
     OrderState state{.extruder = first_of_layer[std::size_t(k)], .at = {}, .seams = {}};
-    planned[std::size_t(k)].emplace(std::move(layer), state, config,
-                                    plan_scene(scene.slices, use, config, *rampart, k), visibility);
+    planned[std::size_t(k)].emplace(std::move(layer), state, config, plan_scene(scene.slices, use, config, *rampart, k),
+                                    visibility);
   };
   const auto take = [&](int k) {
     if (progress.interrupted()) throw Error("interrupted");

@@ -2,11 +2,12 @@
 //
 // Planning: the layers of a recovered print as the planner knows them, and their plan.
 //
-//   recovered print, printer, config  ->  paths with regions, depths, roads  ->  layers in order, with rampart and travel
+//   recovered print, printer, config  ->  paths with regions, depths, roads  ->  layers in order, with rampart and
+//   travel
 //
 // Regions are what each nozzle's roads enclose (printed/regions.hpp). The order of the planner keeps that of the file
-// where plastic depends on it: loops from the inside out, or as external_perimeters_first says, fills after the loops of
-// their region; skirt and brim first, in their order. Loops are closed again, so that they can be begun elsewhere.
+// where plastic depends on it: loops from the inside out, or as external_perimeters_first says, fills after the loops
+// of their region; skirt and brim first, in their order. Loops are closed again, so that they can be begun elsewhere.
 #pragma once
 
 #include <vector>

@@ -197,7 +197,8 @@ class Recovery {
   void tool_word() {
     if (line_.number < 0 || line_.number >= max_tools) refuse(at_, "a tool change that is not understood");
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
-    if (moved_among_notes_) refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
+    if (moved_among_notes_)
+      refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
     leave_run();
     has_tool_ = true;
     breaks_ = true;
@@ -299,8 +300,7 @@ class Recovery {
       std::optional<double> told;
       for (std::size_t i = header_begin; i < tool_at; ++i) {
         layer.header.emplace_back(gap_[i].text);
-        if (gap_[i].text.starts_with(";HEIGHT:") && !told)
-          told = number<double>(trimmed(gap_[i].text.substr(8)));
+        if (gap_[i].text.starts_with(";HEIGHT:") && !told) told = number<double>(trimmed(gap_[i].text.substr(8)));
       }
       layer.height_mm = told.value_or(print_.layers[print_.moves[move_ - 1].layer].height_mm);
     } else if (r_.layers.empty()) {
@@ -376,8 +376,9 @@ class Recovery {
       std::vector<std::string> leave(rest, header.end());
       const bool ends_so = known == r_.leave.end() || known->second == leave;
       if (!ends_so)
-        refuse(m.offset, "a layer begins with a tool change that is not as those before; look at the custom G-code of "
-                         "tool and filament");
+        refuse(m.offset,
+               "a layer begins with a tool change that is not as those before; look at the custom G-code of "
+               "tool and filament");
       r_.leave.try_emplace(m.from_tool, leave);
       header.erase(rest, header.end());
     }
@@ -391,9 +392,10 @@ class Recovery {
     r_.end_feed_mm_min = feed_;
     for (std::size_t k = 1; k < r_.layers.size(); ++k)
       if (r_.layers[k].z_mm <= r_.layers[k - 1].z_mm + same_height_mm)
-        throw Error(fmt::format("{}: layer {} is no higher than the one before: objects that are printed one after the "
-                                "other are not re-planned",
-                                print_.name, k + 1));
+        throw Error(
+            fmt::format("{}: layer {} is no higher than the one before: objects that are printed one after the "
+                        "other are not re-planned",
+                        print_.name, k + 1));
   }
 
   struct Mixed {

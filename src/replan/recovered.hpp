@@ -62,9 +62,9 @@ struct RecoveredPrint {
   std::map<int, std::vector<std::string>> enter;  // and taken with: its T and what follows
 
   bool relative_e = false;
-  int begin_tool = 0, end_tool = 0;                  // in use where the layers begin, and where they end
-  std::uint32_t begin_state = 0, end_state = 0;      // likewise
-  std::vector<std::int64_t> begin_drawn_back_e5;     // of each tool
+  int begin_tool = 0, end_tool = 0;                   // in use where the layers begin, and where they end
+  std::uint32_t begin_state = 0, end_state = 0;       // likewise
+  std::vector<std::int64_t> begin_drawn_back_e5;      // of each tool
   std::int64_t begin_count_e5 = 0, end_count_e5 = 0;  // of E
   double end_feed_mm_min = 0;
   std::size_t progress_lines = 0;  // M73 among the layers, left out

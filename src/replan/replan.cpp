@@ -28,15 +28,15 @@ void require_known_dialect(const GcodePrint& print) {
   if (print.facts.dialect == Dialect::prusaslicer) return;
   if (print.facts.dialect == Dialect::cleancolor)
     throw Error(fmt::format("{}: cleancolor made it, so it is planned already", print.name));
-  throw Error(fmt::format("{}: made by {}; only files of PrusaSlicer are re-planned so far", print.name,
-                          producer_of(print)));
+  throw Error(
+      fmt::format("{}: made by {}; only files of PrusaSlicer are re-planned so far", print.name, producer_of(print)));
 }
 
 std::string header_line(const ReplanRequest& request) {
-  const char* what = request.keeps_order                                ? "order and travel kept"
-                     : request.protection == ReplanProtection::rampart  ? "rampart added, order and travel plain"
-                     : request.protection == ReplanProtection::none     ? "order and travel plain, no rampart"
-                                                                        : "order and travel planned, rampart added";
+  const char* what = request.keeps_order                               ? "order and travel kept"
+                     : request.protection == ReplanProtection::rampart ? "rampart added, order and travel plain"
+                     : request.protection == ReplanProtection::none    ? "order and travel plain, no rampart"
+                                                                       : "order and travel planned, rampart added";
   return fmt::format("{}{}: {}; paths and settings as sliced", mark, CLEANCOLOR_VERSION, what);
 }
 
@@ -89,13 +89,13 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
 
   const GcodePrint after = read_gcode(result.text, print.name);
   if (const auto what = difference(print, after, machine))
-    throw Error(fmt::format("{}: re-planned it would not be the same print: {}; the file is left as it is. Please "
-                            "report it",
-                            print.name, *what));
+    throw Error(
+        fmt::format("{}: re-planned it would not be the same print: {}; the file is left as it is. Please "
+                    "report it",
+                    print.name, *what));
   result.old_time_s = timeline(print, machine).print_time_s;
   result.time_s = timeline(after, machine).print_time_s;
-  if (result.old_time_s > 0)
-    correct_estimates(result.text, print.facts.told_time_s, result.time_s / result.old_time_s);
+  if (result.old_time_s > 0) correct_estimates(result.text, print.facts.told_time_s, result.time_s / result.old_time_s);
   return result;
 }
 

@@ -30,9 +30,9 @@ struct ReplanRequest {
 };
 
 struct Replanned {
-  std::string text;       // of the file
-  bool changed = true;    // false: it had been re-planned before, and is as it was
-  double time_s = 0;      // predicted, of both
+  std::string text;     // of the file
+  bool changed = true;  // false: it had been re-planned before, and is as it was
+  double time_s = 0;    // predicted, of both
   double old_time_s = 0;
   std::vector<std::string> notes;  // what was left out
 };

@@ -2,8 +2,8 @@
 //
 // Same print: whether what was written prints the same part as what was read. Nothing is handed out without it.
 //
-// Compared: filament of each tool and role of the part, to 0.01 %; the roads as sets of points, each once, but for seams
-// that moved; that filament never stays drawn back while plastic is laid.
+// Compared: filament of each tool and role of the part, to 0.01 %; the roads as sets of points, each once, but for
+// seams that moved; that filament never stays drawn back while plastic is laid.
 #pragma once
 
 #include <optional>

@@ -24,7 +24,8 @@ double length_um(FilePoint a, FilePoint b) {
   return std::hypot(double(b.x_um - a.x_um), double(b.y_um - a.y_um));
 }
 FilePoint between(FilePoint a, FilePoint b, double share) {
-  return {a.x_um + std::llround(double(b.x_um - a.x_um) * share), a.y_um + std::llround(double(b.y_um - a.y_um) * share)};
+  return {a.x_um + std::llround(double(b.x_um - a.x_um) * share),
+          a.y_um + std::llround(double(b.y_um - a.y_um) * share)};
 }
 
 /// One road with both its ends.

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "cli/outcome.hpp"
+#include "outcome.hpp"
 
 namespace cleancolor {
 namespace {

@@ -1,4 +1,5 @@
-// Files of PrusaSlicer: the fixture is a bar of two colours, 70 x 8 mm in 8 layers, by PrusaSlicer 2.5.0.
+// Files of PrusaSlicer: the fixture is two bars of two colours, 40 x 8 mm each, side by side in 8 layers, by
+// PrusaSlicer 2.5.0.
 
 #include <gtest/gtest.h>
 
@@ -70,7 +71,8 @@ TEST(ReplanPrusaSlicer, PrintsEveryRoadOnceButForSeamsThatMoved) {
 
 TEST(ReplanPrusaSlicer, WithOrderAndTravelKeptMakesTheSameMoves) {
   for (const std::string& text : {bar(), with_relative_e(bar())}) {
-    const GcodePrint before = read_gcode(text, ""), after = read_gcode(replanned_text(text, {.keeps_order = true}).text, "");
+    const GcodePrint before = read_gcode(text, ""),
+                     after = read_gcode(replanned_text(text, {.keeps_order = true}).text, "");
     const auto moving = [](const GcodePrint& print) {
       std::vector<std::pair<Vec3, double>> moves;
       for (const GcodeMove& m : print.moves) {
@@ -100,7 +102,8 @@ TEST(ReplanPrusaSlicer, KeepsStartAndEndToTheLetter) {
   const std::size_t ours = out.find('\n', line) + 1;
   EXPECT_TRUE(out.substr(line).starts_with("; replanned by cleancolor "));
   EXPECT_EQ(out.substr(ours, first - line), bar().substr(line, first - line));
-  const std::string end = bar().substr(bar().rfind("\nM107"), bar().find("; estimated printing time") - bar().rfind("\nM107"));
+  const std::string end =
+      bar().substr(bar().rfind("\nM107"), bar().find("; estimated printing time") - bar().rfind("\nM107"));
   EXPECT_NE(out.find(end), out.npos);
   const std::size_t config = bar().find("; prusaslicer_config = begin");
   EXPECT_TRUE(out.ends_with(bar().substr(config)));
@@ -149,7 +152,8 @@ TEST(ReplanPrusaSlicer, PrintsEachRoadWithItsFanAndAcceleration) {
     return sums;
   };
   const auto before = under(back), after = under(replanned_text(back).text);
-  for (const auto& [fan, filament] : before) EXPECT_NEAR(double(after.at(fan)), double(filament), 1e-4 * double(filament) + 50) << fan;
+  for (const auto& [fan, filament] : before)
+    EXPECT_NEAR(double(after.at(fan)), double(filament), 1e-4 * double(filament) + 50) << fan;
 }
 
 TEST(ReplanPrusaSlicer, SmearsAnEighthOfIt) {
@@ -182,7 +186,7 @@ TEST(ReplanPrusaSlicer, RefusesWithLineAndReasonWhatItDoesNotKnowForSure) {
 TEST(ReplanPrusaSlicer, WithoutRoomForARampartDoesWithoutAndWarns) {
   Warned warned;
   const Replanned result = replanned_text(
-      replaced(bar(), "; bed_shape = ", "; bed_shape = -36x-5,36x-5,36x5,-36x5\n; old = "), {}, warned.progress);
+      replaced(bar(), "; bed_shape = ", "; bed_shape = -21x-9,21x-9,21x9,-21x9\n; old = "), {}, warned.progress);
   EXPECT_EQ(result.text.find(";RAMPART_WALL"), result.text.npos);
   ASSERT_FALSE(warned.warnings.empty());
   EXPECT_NE(warned.warnings.back().find("without a rampart"), std::string::npos);
@@ -202,8 +206,9 @@ TEST_P(ReplanModels, ComeOutClean) {
   const Model& m = GetParam();
   const TestFolder folder;
   const std::string out = folder.path("sliced.gcode");
-  const std::string command = fmt::format("'{0}' '{1}/models/paper/{2}' '{1}/models/paper/{3}' '{4}' plain > /dev/null 2>&1",
-                                          script, shared, m.first, m.second, out);
+  const std::string command =
+      fmt::format("'{0}' '{1}/models/paper/{2}' '{1}/models/paper/{3}' '{4}' plain > /dev/null 2>&1", script, shared,
+                  m.first, m.second, out);
   ASSERT_EQ(std::system(command.c_str()), 0);
   const std::string text = file_text(out), after = replanned_text(text, {.threads = 2}).text;
   const Cleanness sliced = cleanness(text), clean = cleanness(after);
@@ -212,11 +217,11 @@ TEST_P(ReplanModels, ComeOutClean) {
   EXPECT_LE(clean.time_s, 1.3 * sliced.time_s);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Paper, ReplanModels,
-    testing::Values(Model{"world", "two-color-world-50mm_ocean.stl", "two-color-world-50mm_land.stl", true},
-                    Model{"robot_ice", "robot-ice_robot.stl", "robot-ice_crust.stl", false}),
-    [](const testing::TestParamInfo<Model>& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Paper, ReplanModels,
+                         testing::Values(Model{"world", "two-color-world-50mm_ocean.stl",
+                                               "two-color-world-50mm_land.stl", true},
+                                         Model{"robot_ice", "robot-ice_robot.stl", "robot-ice_crust.stl", false}),
+                         [](const testing::TestParamInfo<Model>& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace cleancolor

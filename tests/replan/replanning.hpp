@@ -12,7 +12,6 @@
 #include "replan/replan.hpp"
 #include "support_errors.hpp"
 
-
 namespace cleancolor::test {
 
 inline std::string fixture(const std::string& name) {
@@ -49,7 +48,8 @@ inline std::map<ToolRole, double> part_filament(const GcodePrint& print) {
 }
 
 /// A road of the part, whichever way it is walked: tool, height, and both its ends, in micrometres.
-using RoadKey = std::tuple<int, std::int64_t, std::pair<std::int64_t, std::int64_t>, std::pair<std::int64_t, std::int64_t>>;
+using RoadKey =
+    std::tuple<int, std::int64_t, std::pair<std::int64_t, std::int64_t>, std::pair<std::int64_t, std::int64_t>>;
 inline std::map<RoadKey, int> part_roads(const GcodePrint& print) {
   std::map<RoadKey, int> roads;
   const auto um = [](double mm) { return std::int64_t(std::llround(mm * 1e3)); };
