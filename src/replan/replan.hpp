@@ -23,7 +23,7 @@ namespace cleancolor {
 enum class ReplanProtection { none, rampart, full };
 
 struct ReplanRequest {
-  std::optional<Config> printer;  // a profile; the file's configuration is put over it
+  std::optional<Config> printer = {};  // a profile; the file's configuration is put over it
   ReplanProtection protection = ReplanProtection::full;
   bool keeps_order = false;  // order, starts and travel stay those of the file
   int threads = 1;
