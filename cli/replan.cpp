@@ -65,7 +65,6 @@ void replan(const ReplanCommand& command, Console& console, std::ostream& out) {
                                       .keeps_order = command.keeps_order,
                                       .threads = threads},
                                      progress);
-  for (const std::string& note : result.notes) progress.warn(fmt::format("{}: {}", print.name, note));
   if (!result.changed) progress.warn(fmt::format("{}: it was re-planned before, and stays as it is", print.name));
   if (command.dry_run) {
     const GcodePrint after = read_gcode(result.text, print.name);

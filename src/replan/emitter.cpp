@@ -86,11 +86,14 @@ void Emitter::move_z(std::int64_t to_um) {
 
 void Emitter::set_z(double z_mm) {
   z_um_ = std::llround(z_mm * 1e3);
+  // A lifted nozzle that is above the new layer already stays where it is, as in PrusaSlicer.
+  lift_um_ = lift_um_ > 0 && z_known_ ? std::max<std::int64_t>(0, told_z_um_ - z_um_) : 0;
   move_z(z_um_ + lift_um_);
 }
 
 void Emitter::lift(double by_mm) {
-  lift_um_ = std::max<std::int64_t>(lift_um_, std::llround(by_mm * 1e3));
+  if (lift_um_ > 0) return;
+  lift_um_ = std::llround(by_mm * 1e3);
   move_z(z_um_ + lift_um_);
 }
 

@@ -211,6 +211,10 @@ Config planning_config(const GcodePrint& print, const AuditMachine& machine, con
       if (entry.key == option.key && is_on(entry.value))
         throw Error(fmt::format("{}: {} = {}: {}", print.name, entry.key, entry.value, option.reason));
   for (const IniEntry& entry : print.facts.config)
+    if ((entry.key == "retract_lift_above" || entry.key == "retract_lift_below") && is_on(entry.value))
+      throw Error(fmt::format("{}: {} = {}: lifting in some layers only is not re-planned yet; switch it off",
+                              print.name, entry.key, entry.value));
+  for (const IniEntry& entry : print.facts.config)
     if (entry.key == "gcode_flavor" && (entry.value == "sailfish" || entry.value == "makerware"))
       throw Error(fmt::format("{}: gcode_flavor = {}: it counts E for each tool; that is not re-planned yet",
                               print.name, entry.value));

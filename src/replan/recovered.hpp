@@ -67,7 +67,7 @@ struct RecoveredPrint {
   std::vector<std::int64_t> begin_drawn_back_e5;      // of each tool
   std::int64_t begin_count_e5 = 0, end_count_e5 = 0;  // of E
   double end_feed_mm_min = 0;
-  std::size_t progress_lines = 0;  // M73 among the layers, left out
+  std::size_t progress_lines = 0;  // M73 among the layers: told anew
 };
 
 /// Throws Error("file:line: ...") for what cannot be put in another order for sure; it says what to do.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -63,6 +64,31 @@ void correct_estimates(std::string& text, double told_s, double share) {
   }
 }
 
+/// Lines "M73 P.. R.." anew: percent and minutes as the print goes now.
+std::string with_progress(const GcodePrint& after, const Timeline& time, double share) {
+  const std::string_view text = *after.text;
+  std::string result;
+  result.reserve(text.size());
+  double done_s = 0;
+  std::size_t move = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    if (line.starts_with("M73 P")) {
+      for (; move < after.moves.size() && after.moves[move].offset < at; ++move) done_s += time.duration_s[move];
+      const double left_s = std::max(0., time.print_time_s - done_s);
+      const bool ends = move == after.moves.size() || left_s < 1;
+      result += fmt::format("M73 P{} R{}", ends ? 100 : std::min(99, int(100 * done_s / time.print_time_s)),
+                            ends ? 0 : std::lround(left_s * share / 60));
+    } else {
+      result += line;
+    }
+    if (end < text.size()) result += '\n';
+    at = end + 1;
+  }
+  return result;
+}
+
 }  // namespace
 
 Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request,
@@ -83,10 +109,6 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   progress.advance("writing", 0);
   result.text = written(recovered, print, machine, config, layers,
                         {.as_in_file = request.keeps_order, .header = header_line(request)});
-  if (recovered.progress_lines > 0)
-    result.notes.push_back(
-        fmt::format("{} lines that tell the remaining time (M73) are left out", recovered.progress_lines));
-
   const GcodePrint after = read_gcode(result.text, print.name);
   if (const auto what = difference(print, after, machine))
     throw Error(
@@ -94,8 +116,12 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
                     "report it",
                     print.name, *what));
   result.old_time_s = timeline(print, machine).print_time_s;
-  result.time_s = timeline(after, machine).print_time_s;
-  if (result.old_time_s > 0) correct_estimates(result.text, print.facts.told_time_s, result.time_s / result.old_time_s);
+  const Timeline time = timeline(after, machine);
+  result.time_s = time.print_time_s;
+  if (result.old_time_s <= 0) return result;
+  const double told_share = print.facts.told_time_s > 0 ? print.facts.told_time_s / result.old_time_s : 1;
+  if (recovered.progress_lines > 0) result.text = with_progress(after, time, told_share);
+  correct_estimates(result.text, print.facts.told_time_s, result.time_s / result.old_time_s);
   return result;
 }
 

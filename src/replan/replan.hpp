@@ -34,7 +34,6 @@ struct Replanned {
   bool changed = true;  // false: it had been re-planned before, and is as it was
   double time_s = 0;    // predicted, of both
   double old_time_s = 0;
-  std::vector<std::string> notes;  // what was left out
 };
 
 /// Throws Error("file:line: ...") for files that cannot be re-planned for sure; it says what to do.

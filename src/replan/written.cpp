@@ -138,19 +138,16 @@ class Writing {
       }
   }
 
-  double lift_mm(const Extruder& e) const { return z_mm_ > first_z_mm() ? e.retract_lift_mm : 0; }
-  double first_z_mm() const { return recovered_.layers.front().z_mm; }
-
   void draw_back() {
     const Extruder& e = config_.extruders[std::size_t(out_.tool())];
     out_.draw_back(std::llround(e.retract_length_mm * 1e5));
-    if (lift_mm(e) > 0) out_.lift(lift_mm(e));
+    if (e.retract_lift_mm > 0) out_.lift(e.retract_lift_mm);
   }
 
   void draw_back_for_change() {
     const Extruder& e = config_.extruders[std::size_t(out_.tool())];
     out_.draw_back(std::llround(e.retract_length_toolchange_mm * 1e5));
-    if (lift_mm(e) > 0) out_.lift(lift_mm(e));
+    if (e.retract_lift_mm > 0) out_.lift(e.retract_lift_mm);
   }
 
   void layer(std::size_t k, const Layer& planned) {
@@ -158,9 +155,9 @@ class Writing {
     layer_ = k;
     std::vector<char> is_written(source.runs.size(), 0);
     out_.header(source.header);
+    if (recovered_.progress_lines > 0) out_.line(progress_placeholder);
     const Extruder& e = config_.extruders[std::size_t(out_.tool())];
     if (options_.as_in_file ? source.runs.front().drawn_back : e.retract_layer_change) draw_back();
-    z_mm_ = source.z_mm;
     out_.set_z(source.z_mm);
     for (const Path& path : planned.paths) {
       if (path.source < 0) {
@@ -326,7 +323,6 @@ class Writing {
   const WriteOptions& options_;
   Emitter out_;
   std::size_t layer_ = 0;
-  double z_mm_ = 0;
   std::vector<std::vector<std::uint32_t>> plain_state_;  // [layer][tool]
   std::vector<double> asked_mm_;                         // of rampart and refills, by tool
   std::vector<std::int64_t> written_e5_;
