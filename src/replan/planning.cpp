@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "model/ini.hpp"
+#include "model/reach.hpp"
 #include "plan/planner.hpp"
 #include "printed/regions.hpp"
 #include "printed/zones.hpp"
@@ -187,6 +188,18 @@ Layer with_walls(Layer layer, const PrintedRampart& rampart, const Config& confi
   return layer;
 }
 
+/// Where each nozzle can go; empty where the print itself lies beyond what the configuration says of the bed.
+std::vector<Polygons> reaches(const Scene& scene, const Config& config) {
+  std::vector<Polygons> result;
+  for (int e = 0; e < int(config.extruders.size()); ++e) {
+    result.push_back(reach(config, e));
+    for (const Layer& layer : scene.layers)
+      for (const Path& path : layer.paths)
+        if (path.extruder == e && !within(path, result.back())) return {};
+  }
+  return result;
+}
+
 /// What slicers do without colour protection, to compare.
 std::vector<Layer> in_plain_order(Scene scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
                                   const Config& config) {
@@ -305,6 +318,7 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
   const int first = recovered.layers.front().runs.front().tool;
   const std::vector<int> first_of_layer = first_extruders(printing_by_layer(scene.slices), first);
 
+  const std::vector<Polygons> reach = reaches(scene, config);
   const int count = int(scene.layers.size());
   std::vector<std::optional<PlannedLayer>> planned{std::size_t(count)};
   std::vector<Layer> result;
