@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -28,9 +29,11 @@ void take_environment(MachineRequest& request, const GcodePrint& print) {
   const char* offsets = std::getenv("SLIC3R_EXTRUDER_OFFSET");
   const bool told = !request.nozzle_offset_mm.empty() || request.printer || !print.facts.nozzle_offset_mm.empty();
   if (offsets == nullptr || *offsets == 0 || told) return;
-  request.nozzle_offset_mm = nozzle_offsets_of(offsets, "SLIC3R_EXTRUDER_OFFSET");
-  for (const Vec2 offset : request.nozzle_offset_mm)
-    if (offset != request.nozzle_offset_mm.front() && !request.offsets_in) request.offsets_in = OffsetsIn::slicer;
+  const std::vector<Vec2> told_mm = nozzle_offsets_of(offsets, "SLIC3R_EXTRUDER_OFFSET");
+  // Zeroes say only that the firmware makes up for them.
+  if (std::ranges::all_of(told_mm, [&](Vec2 p) { return p == told_mm.front(); })) return;
+  request.nozzle_offset_mm = told_mm;
+  if (!request.offsets_in) request.offsets_in = OffsetsIn::slicer;
 }
 
 std::string bytes_of(const std::filesystem::path& file) {

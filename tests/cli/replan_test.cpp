@@ -32,6 +32,18 @@ TEST(ReplanProgram, EditsInPlaceAsAPostProcessingScriptDoes) {
   EXPECT_EQ(file_text(folder.path("in.gcode.pp")), once);
 }
 
+TEST(ReplanProgram, TakesFromTheSlicersEnvironmentWhereTheNozzlesAre) {
+  const TestFolder folder;
+  std::string text = sliced();
+  const std::string told = "; extruder_offset = 0x0,33x0\n";
+  ASSERT_NE(text.find(told), text.npos);
+  folder.file("in.gcode", text.erase(text.find(told), told.size()));
+  const Outcome done = run(folder, "replan in.gcode --post-process", "SLIC3R_EXTRUDER_OFFSET=0x0,33x0");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.err.find("does not say"), done.err.npos) << done.err;
+  EXPECT_NE(file_text(folder.path("in.gcode")), text);
+}
+
 TEST(ReplanProgram, DryRunPrintsFiguresAndWritesNothing) {
   const TestFolder folder;
   folder.file("in.gcode", sliced());
