@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "cli/audit_arguments.hpp"
 #include "cli/explain_arguments.hpp"
+#include "cli/replan_arguments.hpp"
 #include "cli/slice_arguments.hpp"
 #include "cli/view_arguments.hpp"
 #include "cli/words.hpp"
@@ -24,6 +25,7 @@ constexpr const char* description =
     "  cleancolor azimuth ocean.stl land.stl --printer replicator-dual -o azimuth.svg\n"
     "  cleancolor audit print.gcode --printer replicator-dual\n"
     "  cleancolor explain globe.gcode --layer 60 -o layer.svg\n"
+    "  cleancolor replan prusa.gcode -o clean.gcode\n"
     "  cleancolor view globe.gcode\n"
     "  cleancolor profiles\n"
     "  cleancolor options infill\n";
@@ -63,6 +65,8 @@ Command parse_command_line(std::vector<std::string> arguments) {
   CLI::App* audit = add_audit(app, audit_texts);
   ExplainTexts explain_texts;
   CLI::App* explain = add_explain(app, explain_texts);
+  ReplanTexts replan_texts;
+  CLI::App* replan = add_replan(app, replan_texts);
   ViewTexts view_texts;
   CLI::App* view = add_view(app, view_texts);
 
@@ -84,12 +88,13 @@ Command parse_command_line(std::vector<std::string> arguments) {
     return TextCommand{std::string(call.what()) + "\n"};
   } catch (const CLI::CallForHelp&) {
     const CLI::App* asked = &app;
-    for (const CLI::App* sub : {slice, azimuth, audit, explain, view, list, show, options})
+    for (const CLI::App* sub : {slice, azimuth, audit, explain, replan, view, list, show, options})
       asked = sub->parsed() ? sub : asked;
     if (asked == slice) slice->description(slice_description);
     if (asked == azimuth) azimuth->description(azimuth_description);
     if (asked == audit) audit->description(audit_description);
     if (asked == explain) explain->description(explain_description);
+    if (asked == replan) replan->description(replan_description);
     if (asked == view) view->description(view_description);
     return TextCommand{asked->help(asked == &app ? "" : asked == show ? "cleancolor profiles" : "cleancolor")};
   } catch (const CLI::ParseError& fault) {
@@ -98,6 +103,7 @@ Command parse_command_line(std::vector<std::string> arguments) {
                             : azimuth->parsed() ? "azimuth "
                             : audit->parsed()   ? "audit "
                             : explain->parsed() ? "explain "
+                            : replan->parsed()  ? "replan "
                             : view->parsed()    ? "view "
                                                 : ""));
   }
@@ -105,6 +111,7 @@ Command parse_command_line(std::vector<std::string> arguments) {
   if (azimuth->parsed()) return azimuth_command(*azimuth, std::move(azimuth_texts));
   if (audit->parsed()) return audit_command(std::move(audit_texts));
   if (explain->parsed()) return explain_command(std::move(explain_texts));
+  if (replan->parsed()) return replan_command(std::move(replan_texts));
   if (view->parsed()) return view_command(std::move(view_texts));
   if (list->parsed()) return profiles;
   return reference;

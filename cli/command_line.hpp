@@ -14,6 +14,7 @@
 #include "audit/audit.hpp"
 #include "model/settings.hpp"
 #include "pipeline.hpp"
+#include "replan/replan.hpp"
 
 namespace cleancolor {
 
@@ -87,6 +88,19 @@ struct ExplainCommand : MachineOptions {
   bool quiet = false;
 };
 
+/// cleancolor replan
+struct ReplanCommand : MachineOptions {
+  std::filesystem::path file;
+  std::filesystem::path output;  // empty: in place, or none
+  bool post_process = false;     // in place
+  bool dry_run = false;
+  bool keep_going = false;
+  ReplanProtection protection = ReplanProtection::full;
+  bool keeps_order = false;  // and travel
+  int threads = 0;
+  bool quiet = false;
+};
+
 /// cleancolor view
 struct ViewCommand : MachineOptions {
   std::vector<std::filesystem::path> prints, meshes;
@@ -112,8 +126,8 @@ struct TextCommand {
   std::string text;
 };
 
-using Command = std::variant<SliceCommand, AzimuthCommand, AuditCommand, ExplainCommand, ViewCommand, ProfilesCommand,
-                             OptionsCommand, TextCommand>;
+using Command = std::variant<SliceCommand, AzimuthCommand, AuditCommand, ExplainCommand, ReplanCommand, ViewCommand,
+                             ProfilesCommand, OptionsCommand, TextCommand>;
 
 /// arguments: without the program's name. Throws Error for anything that is not understood.
 Command parse_command_line(std::vector<std::string> arguments);

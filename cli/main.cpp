@@ -12,6 +12,7 @@
 #include "cli/explain.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/profiles.hpp"
+#include "cli/replan.hpp"
 #include "cli/slice.hpp"
 #include "cli/view.hpp"
 
@@ -29,6 +30,8 @@ int run(const Command& command) {
     code = run(*audit, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
   } else if (const auto* explain = std::get_if<ExplainCommand>(&command)) {
     run(*explain, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
+  } else if (const auto* replan = std::get_if<ReplanCommand>(&command)) {
+    run(*replan, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
   } else if (const auto* view = std::get_if<ViewCommand>(&command)) {
     run(*view, std::cout, std::cerr);
   } else if (const auto* profiles = std::get_if<ProfilesCommand>(&command)) {

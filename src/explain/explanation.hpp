@@ -12,18 +12,12 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "explain/printed_layer.hpp"
 #include "plan/layer_map.hpp"
 #include "plan/roadmap.hpp"
+#include "printed/printed_layer.hpp"
+#include "printed/zones.hpp"
 
 namespace cleancolor {
-
-/// A connected piece of one nozzle's region.
-struct Zone {
-  int nozzle = 0;
-  Polygons region;
-  Box<Vec2> box;
-};
 
 /// One run, in printing order.
 struct ExplainedRun {

@@ -87,6 +87,7 @@ struct Path {
   std::vector<Stretch> stretches;
   std::vector<Vec2> travel;  // points passed on the way here from the end of the path before, both ends left out
   std::vector<Path> inner;   // within the planner: loops printed before this one without a stop (plan/joined_loops.hpp)
+  int source = -1;           // by which its maker knows it again, whatever becomes of it; -1: nobody asks
 
   const Road& road() const { return stretches.front().road; }
   Vec2 start() const { return points.front(); }

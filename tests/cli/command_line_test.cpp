@@ -112,8 +112,9 @@ TEST(CommandLine, RefusesWhatItDoesNotUnderstand) {
     EXPECT_ERROR(slice_of({"a.stl", "--map-colour", bad}), "--map-colour");
   }
   EXPECT_ERROR(parse_command_line({}), "see cleancolor --help");
-  EXPECT_ERROR(parse_command_line({"print"}),
-               "there is no command 'print'; known are slice, azimuth, audit, explain, view, profiles, options");
+  EXPECT_ERROR(
+      parse_command_line({"print"}),
+      "there is no command 'print'; known are slice, azimuth, audit, explain, replan, view, profiles, options");
   EXPECT_ERROR(parse_command_line({"profiles", "show"}), "name");
   EXPECT_ERROR(parse_command_line({"profiles", "a", "b"}), "a");
 }

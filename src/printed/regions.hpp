@@ -1,4 +1,4 @@
-// explain/regions.hpp
+// printed/regions.hpp
 //
 // Regions: what each nozzle's roads of a layer enclose, as the slicer's regions were before they became roads.
 //
@@ -11,7 +11,7 @@
 #include <span>
 
 #include "base/polygon.hpp"
-#include "explain/printed_layer.hpp"
+#include "printed/printed_layer.hpp"
 
 namespace cleancolor {
 

@@ -1,4 +1,4 @@
-#include "explain/printed_layer.hpp"
+#include "printed/printed_layer.hpp"
 
 #include <gtest/gtest.h>
 

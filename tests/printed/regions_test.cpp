@@ -1,4 +1,4 @@
-#include "explain/regions.hpp"
+#include "printed/regions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// explain/printed_layer.hpp
+// printed/printed_layer.hpp
 //
 // Printed layer: the paths of one layer as the planner would know them, found again in its G-code.
 //

@@ -1,0 +1,171 @@
+#include "replan/emitter.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "gcode/text.hpp"
+
+namespace cleancolor {
+namespace {
+
+template <int decimals>
+void put(std::string& text, char letter, std::int64_t value) {
+  char buffer[32];
+  text += ' ';
+  text += letter;
+  text.append(buffer, std::size_t(put_fixed<decimals>(buffer, value) - buffer));
+}
+
+}  // namespace
+
+Emitter::Emitter(const RecoveredPrint& recovered, const Config& config, std::string start)
+    : recovered_(recovered),
+      config_(config),
+      text_(std::move(start)),
+      state_(recovered.states[recovered.begin_state]),
+      tool_(recovered.begin_tool),
+      count_e5_(recovered.begin_count_e5),
+      drawn_back_e5_(recovered.begin_drawn_back_e5) {}
+
+void Emitter::line(std::string_view text) {
+  text_ += text;
+  end_line();
+}
+
+void Emitter::lines(std::span<const std::string> all) {
+  for (const std::string& text : all) line(text);
+}
+
+void Emitter::set(const ModalState& to) {
+  lines(lines_between(state_, to));
+  for (const auto& [key, text] : to) state_[key] = text;
+}
+
+void Emitter::header(std::span<const std::string> all) {
+  for (const std::string& text : all) {
+    line(text);
+    GcodeLine parsed;
+    if (parse_line(text, parsed)) continue;
+    if (const auto what = modal_line(parsed)) take(state_, *what, text);
+  }
+}
+
+void Emitter::put_feed(double feed_mm_min) {
+  const std::int64_t feed = std::max<std::int64_t>(1, std::llround(feed_mm_min * 1e3));
+  if (feed == feed_) return;
+  feed_ = feed;
+  put<3>(text_, 'F', feed);
+}
+
+void Emitter::put_e(std::int64_t delta_e5) {
+  count_e5_ += delta_e5;
+  put<5>(text_, 'E', recovered_.relative_e ? delta_e5 : count_e5_);
+}
+
+void Emitter::travel(FilePoint to) {
+  if (known_ && to == at_) return;
+  text_ += "G1";
+  if (!known_ || to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);
+  if (!known_ || to.y_um != at_.y_um) put<3>(text_, 'Y', to.y_um);
+  put_feed(config_.travel_speed_mm_s * 60);
+  end_line();
+  at_ = to;
+  known_ = true;
+}
+
+void Emitter::move_z(std::int64_t to_um) {
+  if (z_known_ && to_um == told_z_um_) return;
+  text_ += "G1";
+  put<3>(text_, 'Z', to_um);
+  put_feed(60 * (config_.travel_speed_z_mm_s > 0 ? config_.travel_speed_z_mm_s : config_.travel_speed_mm_s));
+  end_line();
+  told_z_um_ = to_um;
+  z_known_ = true;
+}
+
+void Emitter::set_z(double z_mm) {
+  z_um_ = std::llround(z_mm * 1e3);
+  // A lifted nozzle that is above the new layer already stays where it is, as in PrusaSlicer.
+  lift_um_ = lift_um_ > 0 && z_known_ ? std::max<std::int64_t>(0, told_z_um_ - z_um_) : 0;
+  move_z(z_um_ + lift_um_);
+}
+
+void Emitter::lift(double by_mm) {
+  if (lift_um_ > 0) return;
+  lift_um_ = std::llround(by_mm * 1e3);
+  move_z(z_um_ + lift_um_);
+}
+
+void Emitter::lower() {
+  lift_um_ = 0;
+  move_z(z_um_);
+}
+
+void Emitter::zero_count() {
+  if (recovered_.relative_e) return;
+  line("G92 E0");
+  count_e5_ = 0;
+}
+
+void Emitter::draw_back(std::int64_t to_e5) {
+  const std::int64_t more = to_e5 - drawn_back_e5();
+  if (more <= 0) return;
+  text_ += "G1";
+  put_e(-more);
+  put_feed(extruder().retract_speed_mm_s * 60);
+  end_line();
+  drawn_back_e5() += more;
+  zero_count();
+}
+
+void Emitter::push_forward() {
+  if (drawn_back_e5() <= 0) return;
+  const Extruder& e = extruder();
+  text_ += "G1";
+  put_e(drawn_back_e5());
+  put_feed(60 * (e.deretract_speed_mm_s > 0 ? e.deretract_speed_mm_s : e.retract_speed_mm_s));
+  end_line();
+  drawn_back_e5() = 0;
+}
+
+void Emitter::road(FilePoint to, std::int64_t filament_e5, double feed_mm_min) {
+  assert(known_ && drawn_back_e5() == 0 && lift_um_ == 0);
+  if (to == at_) return;
+  text_ += "G1";
+  if (to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);
+  if (to.y_um != at_.y_um) put<3>(text_, 'Y', to.y_um);
+  if (filament_e5 != 0) put_e(filament_e5);
+  put_feed(feed_mm_min);
+  end_line();
+  at_ = to;
+}
+
+void Emitter::change_tool(int tool) {
+  zero_count();
+  if (const auto leave = recovered_.leave.find(tool_); leave != recovered_.leave.end()) lines(leave->second);
+  if (const auto enter = recovered_.enter.find(tool); enter != recovered_.enter.end()) {
+    lines(std::span(enter->second).first(1));
+    zero_count();
+    lines(std::span(enter->second).subspan(1));
+  }
+  tool_ = tool;
+  known_ = z_known_ = false;
+  feed_ = -1;
+}
+
+std::string Emitter::finish() {
+  if (!recovered_.relative_e && count_e5_ != recovered_.end_count_e5) {
+    text_ += "G92";
+    put<5>(text_, 'E', recovered_.end_count_e5);
+    end_line();
+  }
+  if (recovered_.end_feed_mm_min > 0 && std::llround(recovered_.end_feed_mm_min * 1e3) != feed_) {
+    text_ += "G1";
+    put_feed(recovered_.end_feed_mm_min);
+    end_line();
+  }
+  return std::move(text_);
+}
+
+}  // namespace cleancolor

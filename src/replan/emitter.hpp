@@ -1,0 +1,74 @@
+// replan/emitter.hpp
+//
+// Emitter: the text as it grows again, and the printer as the text so far leaves it.
+//
+// Knows place, height, tool, E, speed, how far each filament is drawn back, and what modal lines said; it writes only
+// what changes. Guarantees: nothing is extruded while filament is drawn back; what is drawn back comes forward again by
+// as much.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/config.hpp"
+#include "replan/recovered.hpp"
+
+namespace cleancolor {
+
+class Emitter {
+ public:
+  /// As the file leaves the printer where its layers begin.
+  Emitter(const RecoveredPrint& recovered, const Config& config, std::string start);
+
+  int tool() const { return tool_; }
+  bool is_known() const { return known_; }
+  FilePoint at() const { return at_; }
+  const ModalState& state() const { return state_; }
+
+  void line(std::string_view text);
+  void lines(std::span<const std::string> all);
+  void set(const ModalState& to);
+
+  /// Lines that may be modal ones: the state follows.
+  void header(std::span<const std::string> all);
+
+  void travel(FilePoint to);
+  void set_z(double z_mm);  // of printing
+  void lift(double by_mm);
+  void lower();
+  void draw_back(std::int64_t to_e5);  // by so much in all
+  void push_forward();
+  void road(FilePoint to, std::int64_t filament_e5, double feed_mm_min);
+
+  /// The lines of the file; afterwards the place is told anew.
+  void change_tool(int tool);
+
+  /// E and speed as the rest of the file takes them for given.
+  std::string finish();
+
+ private:
+  void put_feed(double feed_mm_min);
+  void put_e(std::int64_t delta_e5);
+  void end_line() { text_ += '\n'; }
+  void zero_count();
+  void move_z(std::int64_t to_um);
+  std::int64_t& drawn_back_e5() { return drawn_back_e5_[std::size_t(tool_)]; }
+  const Extruder& extruder() const { return config_.extruders[std::size_t(tool_)]; }
+
+  const RecoveredPrint& recovered_;
+  const Config& config_;
+  std::string text_;
+  ModalState state_;
+  int tool_ = 0;
+  bool known_ = false, z_known_ = false;
+  FilePoint at_;
+  std::int64_t z_um_ = 0, told_z_um_ = 0, lift_um_ = 0;
+  std::int64_t count_e5_ = 0;
+  std::int64_t feed_ = -1;  // 1e-3 mm/min
+  std::vector<std::int64_t> drawn_back_e5_;
+};
+
+}  // namespace cleancolor

@@ -1,0 +1,109 @@
+#include "replan/modal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "model/text_scan.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr std::string_view label_prefix = "0 ";
+
+/// Names of the arguments of a command in words; of those that say which extruder is meant also their values.
+std::string names_in(std::string_view arguments) {
+  std::string names;
+  while (!arguments.empty()) {
+    const std::string_view word = arguments.substr(0, arguments.find(' '));
+    arguments.remove_prefix(std::min(arguments.size(), word.size() + 1));
+    const bool says_which = word.starts_with("EXTRUDER=") || word.starts_with("FAN=");
+    names += fmt::format(" {}", says_which ? word : word.substr(0, word.find('=')));
+  }
+  return names;
+}
+
+/// Letters that are there; with the values of those that say which one is meant.
+std::string letters_in(const GcodeLine& line, std::string_view which) {
+  std::string letters;
+  for (char letter = 'A'; letter <= 'Z'; ++letter) {
+    if (!line.has(letter)) continue;
+    letters += fmt::format(" {}", letter);
+    if (which.find(letter) != which.npos && line.has_value(letter)) letters += fmt::format("{:g}", line[letter]);
+  }
+  return letters;
+}
+
+std::optional<ModalLine> of_comment(std::string_view comment) {
+  const std::string_view text = trimmed(comment);
+  if (text.starts_with("TYPE:")) return ModalLine{std::string(type_key)};
+  if (text.starts_with("WIDTH:")) return ModalLine{std::string(width_key)};
+  if (text.starts_with("HEIGHT:")) return ModalLine{std::string(height_key)};
+  if (text.starts_with("printing object ")) return ModalLine{"0 object"};
+  if (text.starts_with("stop printing object ")) return ModalLine{"0 object", true};
+  return std::nullopt;
+}
+
+std::optional<ModalLine> of_m(const GcodeLine& line) {
+  switch (line.number) {
+    case 106:
+    case 107:
+      return ModalLine{line.has_value('P') ? fmt::format("fan {:g}", line['P']) : std::string("fan")};
+    case 201:
+    case 203:
+    case 204:
+    case 205:
+    case 566:
+      return ModalLine{fmt::format("M{}{}", line.number, letters_in(line, ""))};
+    case 220:
+    case 221:
+    case 572:
+    case 900:
+      return ModalLine{fmt::format("M{}{}", line.number, letters_in(line, "TD"))};
+    case 486:
+      if (!line.has_value('S')) return std::nullopt;
+      return ModalLine{"0 M486", line['S'] < 0};
+    default:
+      return std::nullopt;
+  }
+}
+
+/// The line that ends what this one begins.
+std::string end_of_label(std::string_view line) {
+  constexpr std::string_view words = "; printing object", exclude = "EXCLUDE_OBJECT_START";
+  if (line.starts_with(words)) return fmt::format("; stop{}", line.substr(1));
+  if (line.starts_with(exclude)) return fmt::format("EXCLUDE_OBJECT_END{}", line.substr(exclude.size()));
+  return "M486 S-1";
+}
+
+}  // namespace
+
+std::optional<ModalLine> modal_line(const GcodeLine& line) {
+  if (line.letter == 'M') return of_m(line);
+  if (line.word == "SET_VELOCITY_LIMIT" || line.word == "SET_PRESSURE_ADVANCE")
+    return ModalLine{std::string(line.word) + names_in(trimmed(line.arguments))};
+  if (line.word == "EXCLUDE_OBJECT_START") return ModalLine{"0 EXCLUDE_OBJECT"};
+  if (line.word == "EXCLUDE_OBJECT_END") return ModalLine{"0 EXCLUDE_OBJECT", true};
+  const bool alone = line.letter == 0 && line.word.empty() && line.present == 0;
+  return alone && line.has_comment ? of_comment(line.comment) : std::nullopt;
+}
+
+void take(ModalState& state, const ModalLine& what, std::string_view text) {
+  state[what.key] = what.ends ? std::string() : std::string(text);
+}
+
+std::vector<std::string> lines_between(const ModalState& from, const ModalState& to) {
+  std::vector<std::string> ends, lines;
+  for (const auto& [key, text] : to) {
+    const auto before = from.find(key);
+    if (before != from.end() && before->second == text) continue;
+    if (key.starts_with(label_prefix) && before != from.end() && !before->second.empty())
+      ends.push_back(end_of_label(before->second));
+    if (!text.empty()) lines.push_back(text);
+  }
+  std::ranges::move(lines, std::back_inserter(ends));
+  return ends;
+}
+
+}  // namespace cleancolor

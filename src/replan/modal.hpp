@@ -1,0 +1,41 @@
+// replan/modal.hpp
+//
+// Modal lines: what a file says once and means until it says otherwise.
+//
+//   line  ->  what it sets;  two states  ->  the lines that lead from one to the other
+//
+// Type, width and height of roads (comments), fans, accelerations and jerk, pressure advance, flow; labels of objects,
+// which begin and end. Whoever prints in another order says them anew where they differ.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reader/line.hpp"
+
+namespace cleancolor {
+
+/// By what is set: the line that set it, verbatim; of a label that ended an empty text.
+using ModalState = std::map<std::string, std::string, std::less<>>;
+
+inline constexpr std::string_view type_key = "1 type";
+inline constexpr std::string_view width_key = "2 width";
+inline constexpr std::string_view height_key = "3 height";
+
+/// What the line sets; nothing where it is no such line.
+struct ModalLine {
+  std::string key;
+  bool ends = false;  // it ends what another began: a label
+};
+std::optional<ModalLine> modal_line(const GcodeLine& line);
+
+/// Takes the line into the state.
+void take(ModalState& state, const ModalLine& what, std::string_view text);
+
+/// The lines that lead from one state to the other, ends of labels first. What `to` does not know stays as it is.
+std::vector<std::string> lines_between(const ModalState& from, const ModalState& to);
+
+}  // namespace cleancolor

@@ -1,0 +1,345 @@
+#include "replan/planning.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <span>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "model/ini.hpp"
+#include "model/reach.hpp"
+#include "plan/planner.hpp"
+#include "printed/regions.hpp"
+#include "printed/zones.hpp"
+#include "protection.hpp"
+#include "toolpath/roads.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr double detail_mm = 0.02;   // of recovered regions
+constexpr double seam_widths = 0.6;  // ends of a loop so near to its start are its seam
+constexpr double least_round = 8;    // a loop is so many times longer than its gap
+constexpr double same_width_mm = 0.02;
+constexpr double same_speed = 0.02;        // share
+constexpr double crack_mm = 0.05;          // between two colours is no air
+constexpr std::size_t depth_samples = 16;  // places of a loop that are asked how deep it lies
+constexpr std::size_t shield_layers = 5;   // a skirt in more is a shield
+
+struct RefusedOption {
+  std::string_view key;
+  std::string_view reason;
+};
+constexpr RefusedOption refused_options[] = {
+    {"spiral_vase", "vase mode is one road from bottom to top; there is nothing to put in order"},
+    {"complete_objects", "objects that are printed one after the other are not re-planned"},
+    {"single_extruder_multi_material", "filament changes in one nozzle, so that no idle nozzle can ooze"},
+    {"use_firmware_retraction", "the firmware draws filament back; switch it off in the slicer"},
+    {"use_volumetric_e", "E in mm3 is not re-planned yet; switch it off in the slicer"},
+    {"ooze_prevention", "standby temperatures are not re-planned yet; switch it off, a rampart is added"},
+    {"infill_first", "infill before perimeters is not re-planned yet; switch it off in the slicer"},
+    {"wipe", "wiping while retracting is not re-planned yet; switch it off in the slicer"},
+    {"wipe_tower", "prints with a wipe tower are not re-planned yet; slice without it, a rampart is added"},
+    {"ironing", "ironing is not re-planned yet; switch it off in the slicer"},
+};
+
+bool is_on(std::string_view value) {
+  return value.find_first_not_of("0,") != value.npos;
+}
+
+bool is_wall(Role role) {
+  return role == Role::external_perimeter || role == Role::perimeter || role == Role::overhang_perimeter;
+}
+
+double distance_to(const Polygons& rings, Vec2 p) {
+  double least = INFINITY;
+  for (const Ring& ring : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 q = nearest_on_segment(to_mm(ring[i]), to_mm(ring[(i + 1) % ring.size()]), p);
+      least = std::min(least, length_squared(p - q));
+    }
+  return std::sqrt(least);
+}
+
+/// 0 along the border of its zone, 1 the next loop inside, ...
+int depth_of(const Path& path, const Zone* zone) {
+  if (!std::ranges::all_of(path.stretches, [](const Stretch& s) { return is_wall(s.road.role); })) return fill_depth;
+  const auto is_outer = [](const Stretch& s) { return s.road.role == Role::external_perimeter; };
+  if (std::ranges::any_of(path.stretches, is_outer)) return 0;
+  if (zone == nullptr) return 1;
+  std::vector<double> depths;
+  const std::size_t step = std::max<std::size_t>(1, path.points.size() / depth_samples);
+  for (std::size_t i = 0; i < path.points.size(); i += step)
+    depths.push_back(distance_to(zone->region, path.points[i]));
+  std::ranges::nth_element(depths, depths.begin() + std::ptrdiff_t(depths.size() / 2));
+  const double spacing = road_spacing_mm(path.road().width_mm, path.road().height_mm);
+  const double inside = depths[depths.size() / 2] - path.road().width_mm / 2;
+  const bool overhangs =
+      std::ranges::all_of(path.stretches, [](const Stretch& s) { return s.road.role == Role::overhang_perimeter; });
+  return std::clamp(int(std::lround(inside / std::max(spacing, 0.05))), overhangs ? 0 : 1, fill_depth - 1);
+}
+
+/// Everything that stages of a print are planned from.
+struct Scene {
+  Slices slices;              // of the part
+  Slices around;              // the same with skirt and brim: what a rampart stands around
+  std::vector<Layer> layers;  // their paths as in the file
+};
+
+Polygons filled(const Polygons& region) {
+  Polygons outlines;
+  for (const Island& island : islands(region)) outlines.push_back(island.outline);
+  return united(outlines);
+}
+
+void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
+                   Scene& scene) {
+  const RecoveredLayer& layer = recovered.layers[k];
+  std::vector<LaidRoad> roads;
+  Polygons auxiliary;
+  std::vector<LaidRoad> extra;
+  for (const RecoveredRun& run : layer.runs) {
+    FilePoint from = run.from;
+    for (const RunRoad& road : run.roads) {
+      const GcodeMove& move = print.moves[road.move];
+      const LaidRoad laid{place_mm(from, run.tool, machine), place_mm(road.to, run.tool, machine),
+                          std::clamp(double(move.width_mm), 0.02, 10.), run.tool, move.role};
+      (is_auxiliary(move.role) ? extra : roads).push_back(laid);
+      from = road.to;
+    }
+  }
+  std::vector<Polygons> regions;
+  Polygons outline;
+  for (int n = 0; n < int(machine.nozzles.size()); ++n) {
+    regions.push_back(simplified(region(roads, n, detail_mm), detail_mm / 2));
+    append(outline, regions.back());
+  }
+  outline = simplified(closed(united(outline), crack_mm), detail_mm / 2);
+  scene.slices.regions[k] = packed(regions);
+  scene.slices.outlines[k] = outline;
+  scene.around.regions[k] = scene.slices.regions[k];
+  scene.around.outlines[k] = extra.empty() ? outline : united(outline, filled(plastic(extra, detail_mm)));
+
+  const std::vector<Zone> zones = zones_of(regions);
+  Layer& planned = scene.layers[k];
+  planned.index = int(k);
+  planned.print_z_mm = layer.z_mm;
+  planned.height_mm = layer.height_mm;
+  for (std::size_t i = 0; i < layer.runs.size(); ++i) {
+    Path path = path_of(layer.runs[i], int(i), layer.height_mm, print, machine);
+    path.island = zone_of(path, zones);
+    path.depth = depth_of(path, path.island >= 0 ? &zones[std::size_t(path.island)] : nullptr);
+    // Part plastic that lies in no zone waits for nothing, and nothing for it.
+    if (path.island < 0 && !is_auxiliary(path.road().role)) path.island = int(zones.size() + i);
+    planned.paths.push_back(std::move(path));
+  }
+}
+
+Scene scene_of(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine, int threads) {
+  Scene scene;
+  const std::size_t count = recovered.layers.size();
+  for (Slices* slices : {&scene.slices, &scene.around}) {
+    slices->regions.resize(count);
+    slices->outlines.resize(count);
+    for (const RecoveredLayer& layer : recovered.layers)
+      slices->slabs.push_back({.print_z_mm = layer.z_mm, .height_mm = std::clamp(layer.height_mm, 0.01, 5.)});
+  }
+  scene.layers.resize(count);
+  parallel_for(int(count), threads, [&](int k) { recover_layer(std::size_t(k), recovered, print, machine, scene); });
+  return scene;
+}
+
+void require_no_shield(const Scene& scene, const GcodePrint& print) {
+  std::size_t with_skirt = 0;
+  for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+    const std::vector<Path>& paths = scene.layers[k].paths;
+    with_skirt += std::ranges::any_of(paths, [](const Path& p) { return p.road().role == Role::skirt_brim; });
+    if (scene.slices.outlines[k].empty())
+      throw Error(
+          fmt::format("{}: layer {} has nothing of the part; such files are not re-planned yet", print.name, k + 1));
+  }
+  if (with_skirt > shield_layers)
+    throw Error(
+        fmt::format("{}: {} layers have a skirt: a shield; slice without it (draft_shield, skirt_height): a "
+                    "rampart is added that wipes nozzles, too",
+                    print.name, with_skirt));
+}
+
+/// As the writer would print it: never faster than the filament allows.
+void limit_speeds(std::vector<Path>& paths, const Config& config) {
+  for (Path& path : paths) {
+    const Extruder& e = config.extruders[std::size_t(path.extruder)];
+    for (Stretch& s : path.stretches)
+      for (const double limit : {config.max_volumetric_speed_mm3_s, e.filament_max_volumetric_speed_mm3_s})
+        if (limit > 0)
+          s.road.speed_mm_s = std::min(s.road.speed_mm_s, limit / (s.road.area_mm2 * e.extrusion_multiplier));
+  }
+}
+
+Layer with_walls(Layer layer, const PrintedRampart& rampart, const Config& config) {
+  std::vector<Path> paths = rampart.paths(layer.index);
+  limit_speeds(paths, config);
+  std::ranges::move(layer.paths, std::back_inserter(paths));
+  layer.paths = std::move(paths);
+  return layer;
+}
+
+/// Where each nozzle can go; empty where the print itself lies beyond what the configuration says of the bed.
+std::vector<Polygons> reaches(const Scene& scene, const Config& config) {
+  std::vector<Polygons> result;
+  for (int e = 0; e < int(config.extruders.size()); ++e) {
+    result.push_back(reach(config, e));
+    for (const Layer& layer : scene.layers)
+      for (const Path& path : layer.paths)
+        if (path.extruder == e && !within(path, result.back())) return {};
+  }
+  return result;
+}
+
+/// What slicers do without colour protection, to compare.
+std::vector<Layer> in_plain_order(Scene scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
+                                  const Config& config) {
+  OrderState state{.extruder = recovered.layers.front().runs.front().tool, .at = {}, .seams = {}};
+  for (Layer& layer : scene.layers) {
+    layer = with_walls(std::move(layer), rampart, config);
+    order(layer, state, config, rampart.site(layer.index));
+  }
+  return std::move(scene.layers);
+}
+
+}  // namespace
+
+Config planning_config(const GcodePrint& print, const AuditMachine& machine, const Config* printer) {
+  if (print.facts.config.empty() || print.facts.config_kind.empty())
+    throw Error(
+        fmt::format("{}: it has no configuration block at its end; it is not known how far filament is drawn "
+                    "back. Export the G-code again with it",
+                    print.name));
+  for (const IniEntry& entry : print.facts.config)
+    for (const RefusedOption& option : refused_options)
+      if (entry.key == option.key && is_on(entry.value))
+        throw Error(fmt::format("{}: {} = {}: {}", print.name, entry.key, entry.value, option.reason));
+  for (const IniEntry& entry : print.facts.config)
+    if ((entry.key == "retract_lift_above" || entry.key == "retract_lift_below") && is_on(entry.value))
+      throw Error(fmt::format("{}: {} = {}: lifting in some layers only is not re-planned yet; switch it off",
+                              print.name, entry.key, entry.value));
+  for (const IniEntry& entry : print.facts.config)
+    if (entry.key == "gcode_flavor" && (entry.value == "sailfish" || entry.value == "makerware"))
+      throw Error(fmt::format("{}: gcode_flavor = {}: it counts E for each tool; that is not re-planned yet",
+                              print.name, entry.value));
+  Config config = with_ini(printer != nullptr ? *printer : Config{}, print.facts.config, print.name).config;
+  const std::size_t nozzles = machine.nozzles.size();
+  while (config.extruders.size() < nozzles) config.extruders.push_back(config.extruders.back());
+  config.extruders.resize(nozzles);
+  for (std::size_t n = 0; n < nozzles; ++n) config.extruders[n].nozzle_offset_mm = machine.nozzles[n].offset_mm;
+  config.offsets_in = machine.offsets_in;
+  config.idle_nozzle = machine.idle_nozzle;
+  config.planner = Planner::clean;
+  config.seam_position = SeamPosition::hidden;
+  config.join_perimeters = false;
+  config.heater_off_after_last_use = false;  // the file's own temperatures hold
+  config.rampart = RampartShape::automatic;
+  config.refill_mode = RefillMode::off;
+  return config;
+}
+
+Vec2 place_mm(FilePoint at, int tool, const AuditMachine& machine) {
+  return plastic_mm(machine, {double(at.x_um) / 1000, double(at.y_um) / 1000}, tool);
+}
+
+Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodePrint& print,
+             const AuditMachine& machine) {
+  Path path;
+  path.extruder = run.tool;
+  path.source = source;
+  path.island = -1;
+  path.points.push_back(place_mm(run.from, run.tool, machine));
+  const double filament_mm2 = filament_area_mm2(machine, run.tool);
+  for (const RunRoad& r : run.roads) {
+    const GcodeMove& move = print.moves[r.move];
+    const Vec2 to = place_mm(r.to, run.tool, machine);
+    const double mm = distance(path.points.back(), to);
+    const Road road{.role = move.role,
+                    .width_mm = std::clamp(double(move.width_mm), 0.02, 10.),
+                    .height_mm = move.height_mm > 0 ? double(move.height_mm) : height_mm,
+                    .area_mm2 = mm > 0 ? double(r.filament_e5) * 1e-5 * filament_mm2 / mm : 0,
+                    .speed_mm_s = std::max(1., r.feed_mm_min / 60)};
+    const auto is_same = [&](const Road& other) {
+      return other.role == road.role && std::abs(other.width_mm - road.width_mm) <= same_width_mm &&
+             std::abs(other.speed_mm_s - road.speed_mm_s) <= same_speed * road.speed_mm_s;
+    };
+    if (path.stretches.empty() || !is_same(path.stretches.back().road))
+      path.stretches.push_back({std::uint32_t(path.points.size() - 1), road});
+    path.points.push_back(to);
+  }
+  const double gap = distance(path.points.front(), path.points.back());
+  const bool walls = std::ranges::all_of(path.stretches, [](const Stretch& s) { return is_wall(s.road.role); });
+  const bool comes_back = gap <= seam_widths * path.road().width_mm && length_mm(path) > least_round * gap;
+  if (!walls || !comes_back || path.points.size() < 4) return path;
+  path.closed = true;
+  if (gap == 0) path.points.pop_back();
+  return path;
+}
+
+std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
+                                  Config config, const ReplanOptions& options, const Progress& progress) {
+  progress.advance("regions", 0);
+  Scene scene = scene_of(recovered, print, machine, options.threads);
+  require_no_shield(scene, print);
+  if (!options.plans) {
+    for (std::size_t k = 0; k < scene.layers.size(); ++k)
+      for (std::size_t i = 0; i < scene.layers[k].paths.size(); ++i) {
+        Path& path = scene.layers[k].paths[i];
+        path.closed = false;  // begun where the file begins it
+        for (const FilePoint p : recovered.layers[k].runs[i].way)
+          path.travel.push_back(place_mm(p, path.extruder, machine));
+      }
+    return std::move(scene.layers);
+  }
+  const Use use(scene.slices);
+  if (use.extruders.size() < 2)
+    throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));
+  std::optional<PrintedRampart> rampart;
+  try {
+    rampart.emplace(scene.around, use, config, options.threads);
+  } catch (const Error& fault) {
+    progress.warn(fmt::format("{}: {}; it is re-planned without a rampart", print.name, fault.what()));
+    config.rampart = RampartShape::off;
+    rampart.emplace(scene.around, use, config, options.threads);
+  }
+  std::vector<double> height_mm;
+  for (const Slab& slab : scene.slices.slabs) height_mm.push_back(slab.height_mm);
+  if (config.planner == Planner::plain) return in_plain_order(std::move(scene), *rampart, recovered, config);
+  const SurfaceVisibility visibility(scene.slices.outlines, height_mm, {.threads = options.threads}, progress);
+  const int first = recovered.layers.front().runs.front().tool;
+  const std::vector<int> first_of_layer = first_extruders(printing_by_layer(scene.slices), first);
+
+  const std::vector<Polygons> reach = reaches(scene, config);
+  const int count = int(scene.layers.size());
+  std::vector<std::optional<PlannedLayer>> planned{std::size_t(count)};
+  std::vector<Layer> result;
+  Layer below;
+  const auto plan = [&](int k) {
+    Layer layer = with_walls(std::move(scene.layers[std::size_t(k)]), *rampart, config);
+    OrderState state{.extruder = first_of_layer[std::size_t(k)], .at = {}, .seams = {}};
+    planned[std::size_t(k)].emplace(std::move(layer), state, config, plan_scene(scene.slices, use, config, *rampart, k),
+                                    visibility);
+  };
+  const auto take = [&](int k) {
+    if (progress.interrupted()) throw Error("interrupted");
+    std::optional<PlannedLayer>& own = planned[std::size_t(k)];
+    own->arrive_from(below);
+    result.push_back(std::move(*own).release());
+    own.reset();
+    if (!result.back().paths.empty()) below.paths.assign(1, result.back().paths.back());
+    progress.advance("planning", double(k + 1) / count);
+  };
+  run({.count = count, .window = 3 * options.threads + 4, .stages = {{0, plan}}, .consume = take}, options.threads);
+  return result;
+}
+
+}  // namespace cleancolor

@@ -1,0 +1,438 @@
+#include "replan/recovered.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/error.hpp"
+#include "model/text_scan.hpp"
+#include "reader/known_commands.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr double same_height_mm = 0.0005;
+constexpr std::int64_t rounding_e5 = 200;  // of what is drawn back and pushed forward again
+
+std::int64_t to_um(double mm) {
+  return std::llround(mm * 1e3);
+}
+std::int64_t to_e5(double mm) {
+  return std::llround(mm * 1e5);
+}
+
+bool begins_layer(std::string_view line) {
+  return line.starts_with(";LAYER_CHANGE") || line.starts_with(";BEFORE_LAYER_CHANGE");
+}
+
+bool is_temperature(const GcodeLine& line) {
+  return line.letter == 'M' && (line.number == 104 || line.number == 109 || line.number == 140 || line.number == 190);
+}
+
+class Recovery {
+ public:
+  explicit Recovery(const GcodePrint& print) : print_(print), text_(*print.text) {}
+
+  RecoveredPrint result() && {
+    find_body();
+    drawn_back_e5_.resize(std::max<std::size_t>(std::size_t(print_.tools), max_tools));
+    for (at_ = 0; at_ < r_.begin; at_ = next_) before_layers();
+    begin_layers();
+    for (; at_ < r_.end; at_ = next_) in_layers();
+    part_headers_and_changes();
+    finish();
+    return std::move(r_);
+  }
+
+ private:
+  [[noreturn]] void refuse(std::size_t offset, const std::string& what) const {
+    throw Error(fmt::format("{}:{}: {}", print_.name, line_number(text_, offset), what));
+  }
+
+  /// Sets line_ and raw_ to the line at at_.
+  void read_line() {
+    const std::size_t stop = std::min(text_.find('\n', at_), text_.size());
+    raw_ = text_.substr(at_, stop - at_);
+    next_ = std::min(stop + 1, text_.size());
+    if (const auto fault = parse_line(raw_, line_)) refuse(at_, std::string(*fault));
+  }
+
+  /// The layers reach from the first ;LAYER_CHANGE to the last road.
+  void find_body() {
+    if (text_.find('\r') != text_.npos)
+      refuse(text_.find('\r'), "lines end with CR; save the file with plain line ends (LF)");
+    std::size_t first = text_.npos;
+    for (const std::string_view mark : {"\n;LAYER_CHANGE", "\n;BEFORE_LAYER_CHANGE"})
+      first = std::min(first, text_.find(mark));
+    if (first == text_.npos)
+      throw Error(fmt::format("{}: it has no ;LAYER_CHANGE comments; files of this slicer are not re-planned yet",
+                              print_.name));
+    r_.begin = first + 1;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < print_.moves.size(); ++i)
+      if (lays_plastic(print_, i)) last = print_.moves[i].offset;
+    if (last < r_.begin) refuse(last, "nothing is printed after the first ;LAYER_CHANGE");
+    r_.end = std::min(text_.find('\n', last), text_.size() - 1) + 1;
+  }
+
+  /// Index of the move that the line makes; nothing where it makes none.
+  std::optional<std::size_t> take_move() {
+    while (move_ < print_.moves.size() && print_.moves[move_].offset < at_) ++move_;
+    if (move_ == print_.moves.size() || print_.moves[move_].offset != at_) return std::nullopt;
+    const std::size_t found = move_++;
+    if (move_ < print_.moves.size() && print_.moves[move_].offset == at_)
+      refuse(at_, "this line makes several moves; switch off arcs in the slicer");
+    return found;
+  }
+
+  void count_e() {
+    const bool sets = line_.letter == 'G' && line_.number == 92;
+    const bool moves = line_.letter == 'G' && line_.number <= 1;
+    if (line_.has_value('E') && (sets || (moves && !r_.relative_e))) count_e5_ = to_e5(line_['E']);
+    if (moves && line_.has_value('F')) feed_ = line_['F'];
+  }
+
+  void move_filament(const GcodeMove& move) {
+    std::int64_t& back = drawn_back_e5_[move.feeds];
+    back = std::max<std::int64_t>(0, back - to_e5(move.filament_mm));
+  }
+
+  void before_layers() {
+    read_line();
+    if (line_.letter == 'M' && (line_.number == 82 || line_.number == 83)) r_.relative_e = line_.number == 83;
+    count_e();
+    if (const auto what = modal_line(line_)) take(state_, *what, raw_);
+    while (move_ < print_.moves.size() && print_.moves[move_].offset < next_) move_filament(print_.moves[move_++]);
+  }
+
+  void begin_layers() {
+    tool_ = 0;
+    for (const GcodeEvent& e : print_.events)
+      if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) tool_ = e.tool;
+    r_.begin_tool = tool_;
+    if (!state_.contains("fan")) state_["fan"] = "M107";
+    r_.states.push_back(state_);
+    r_.begin_drawn_back_e5 = drawn_back_e5_;
+    r_.begin_count_e5 = count_e5_;
+    breaks_ = true;
+  }
+
+  void in_layers() {
+    read_line();
+    count_e();
+    if (line_.letter == 0 && line_.word.empty() && line_.present == 0) return comment();
+    if (const auto what = modal_line(line_)) return set(*what);
+    if (line_.letter == 'G') return command_g();
+    if (line_.letter == 'T') return tool_word();
+    if (line_.letter == 'M' && line_.number == 73) {
+      ++r_.progress_lines;
+      return;
+    }
+    if (line_.letter == 0 && line_.word.empty())
+      refuse(at_, "a move without its G command among the layers is not re-planned");
+    command();
+  }
+
+  void set(const ModalLine& what) {
+    take(state_, what, raw_);
+    state_changed_ = true;
+  }
+
+  void comment() {
+    if (!line_.has_comment) return;
+    if (begins_layer(raw_)) {
+      if (has_layer_mark_ && raw_.starts_with(";BEFORE_LAYER_CHANGE")) refuse(at_, "a layer without roads");
+      if (!has_layer_mark_) mark_layer();
+      gap_.push_back({raw_, at_, false});
+      return;
+    }
+    if (const auto what = modal_line(line_)) {
+      set(*what);
+      if (has_layer_mark_ && !has_tool_ && !left_header_ && what->key == height_key) gap_.push_back({raw_, at_, false});
+      return;
+    }
+    keep(false);
+  }
+
+  /// A line that stays.
+  void keep(bool is_command) {
+    if (travelled_after_tool_)
+      refuse(at_, "the carriage is moved by the code of this tool change; it cannot be re-planned");
+    gap_.push_back({raw_, at_, is_command});
+  }
+
+  /// What was driven since the last road is no way to the next.
+  void leave_run() {
+    if (!r_.layers.empty() && !r_.layers.back().runs.empty())
+      run().leaving.insert(run().leaving.end(), way_.begin(), way_.end());
+    way_.clear();
+    back_after_ = 0;
+  }
+
+  void mark_layer() {
+    if (has_tool_) refuse(at_, "a layer begins after a tool change without a road between them");
+    leave_run();
+    has_layer_mark_ = true;
+    left_header_ = false;
+    mark_in_gap_ = gap_.size();
+    breaks_ = true;
+  }
+
+  void command() {
+    if (is_temperature(line_)) {
+      const bool bed = line_.number == 140 || line_.number == 190;
+      if (!bed && !line_.has_value('T') && print_.tools > 1)
+        refuse(at_, "a temperature without a tool (T) among the layers: it would reach another one");
+    } else if (!is_harmless(line_) || line_.number == 600 || line_.number == 601 || line_.number == 25 ||
+               (line_.letter == 'M' && line_.number <= 1)) {
+      refuse(at_, fmt::format("'{}' among the layers: it cannot be moved, nor left where it is; take it out of the "
+                              "slicer's custom G-code",
+                              shown(trimmed(raw_))));
+    }
+    keep(true);
+  }
+
+  void tool_word() {
+    if (line_.number < 0 || line_.number >= max_tools) refuse(at_, "a tool change that is not understood");
+    if (has_tool_) refuse(at_, "two tool changes without a road between them");
+    if (moved_among_notes_)
+      refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
+    leave_run();
+    has_tool_ = true;
+    breaks_ = true;
+    tool_in_gap_ = gap_.size();
+    from_tool_ = tool_;
+    tool_ = line_.number;
+    gap_.push_back({raw_, at_, false});
+  }
+
+  void command_g() {
+    const int g = line_.number;
+    if (g == 92) {
+      if (line_.has('X') || line_.has('Y') || line_.has('Z')) refuse(at_, "G92 moves the origin among the layers");
+      return;
+    }
+    if (g == 2 || g == 3) refuse(at_, "arcs are not re-planned yet; switch off arc fitting in the slicer");
+    if (g == 10 || g == 11)
+      refuse(at_, "the firmware draws filament back; switch off use_firmware_retraction in the slicer");
+    if (g != 0 && g != 1)
+      refuse(at_, fmt::format("'{}' among the layers: it cannot be moved; take it out of the slicer's custom G-code",
+                              shown(trimmed(raw_))));
+    const auto index = take_move();
+    if (!index) return;  // a speed alone
+    const GcodeMove& move = print_.moves[*index];
+    const Vec3 from = *index > 0 ? print_.moves[*index - 1].to_mm : Vec3{};
+    if (lays_plastic(print_, *index)) return lay(*index, move, from);
+    go(move, from);
+  }
+
+  void go(const GcodeMove& move, Vec3 from) {
+    breaks_ = true;
+    const bool across = from.x != move.to_mm.x || from.y != move.to_mm.y || (!move.known_start && move.names_xy);
+    if (across && has_tool_) travelled_after_tool_ = true;
+    if (across && !has_tool_ && !gap_.empty()) moved_among_notes_ = true;
+    if (move.filament_mm != 0 && across)
+      refuse(at_, "filament is drawn back on the way (wipe while retracting); switch off 'wipe' in the slicer");
+    if (has_layer_mark_) left_header_ = left_header_ || across;
+    if (move.filament_mm > 0) {
+      const std::int64_t beyond = to_e5(move.filament_mm) - drawn_back_e5_[move.feeds];
+      if (beyond > rounding_e5) refuse(at_, "plastic is pushed out on the spot, more than was drawn back");
+    }
+    if (move.filament_mm < 0 && !drawn_back_) drawn_back_ = true, back_after_ = way_.size();
+    if (move.feeds != move.tool) refuse(at_, "filament of another tool than the one in use is moved");
+    move_filament(move);
+    if (across) way_.push_back({to_um(move.to_mm.x), to_um(move.to_mm.y)});
+  }
+
+  void lay(std::size_t index, const GcodeMove& move, Vec3 from) {
+    require_known_road(move, from);
+    if (breaks_) close_gap(from);
+    if (r_.layers.empty()) refuse(at_, "a road before the first layer");
+    for (const Note& note : gap_) {
+      if (note.is_command) refuse(note.offset, "a command in the middle of a road: it cannot be moved");
+      run().notes.emplace_back(note.text);
+    }
+    gap_.clear();
+    if (state_changed_) {
+      if (r_.states.back() != state_) r_.states.push_back(state_);
+      state_changed_ = false;
+    }
+    run().roads.push_back({.to = {to_um(move.to_mm.x), to_um(move.to_mm.y)},
+                           .filament_e5 = to_e5(move.filament_mm),
+                           .feed_mm_min = feed_,
+                           .state = std::uint32_t(r_.states.size() - 1),
+                           .move = std::uint32_t(index)});
+  }
+
+  void require_known_road(const GcodeMove& move, Vec3 from) const {
+    if (std::abs(from.z - move.to_mm.z) > same_height_mm)
+      refuse(at_, "a road that rises (vase mode) is not re-planned");
+    if (move.tool != move.feeds || move.tool != tool_) refuse(at_, "a road of another tool than the one in use");
+    switch (move.role) {
+      case Role::wipe_tower:
+        refuse(at_, "prints with a wipe tower are not re-planned yet; slice without it, a rampart is added");
+      case Role::support:
+      case Role::support_interface:
+        refuse(at_, "prints with supports are not re-planned yet");
+      case Role::ironing:
+        refuse(at_, "ironing is not re-planned yet; switch it off in the slicer");
+      case Role::custom:
+        refuse(at_, "a road of custom G-code among the layers cannot be moved");
+      case Role::unknown:
+        refuse(at_, "the file does not say what this road is (;TYPE:)");
+      default:
+        return;
+    }
+  }
+
+  RecoveredRun& run() { return r_.layers.back().runs.back(); }
+
+  /// What lies between two runs: ends of what was printed, a new layer, another tool, the way.
+  void close_gap(Vec3 from) {
+    std::size_t header_begin = has_layer_mark_ ? mark_in_gap_ : 0;
+    const std::size_t tool_at = has_tool_ ? tool_in_gap_ : gap_.size();
+    std::vector<std::string> notes;
+    if (has_layer_mark_) {
+      RecoveredLayer& layer = r_.layers.emplace_back();
+      layer.z_mm = from.z;
+      std::optional<double> told;
+      for (std::size_t i = header_begin; i < tool_at; ++i) {
+        layer.header.emplace_back(gap_[i].text);
+        if (gap_[i].text.starts_with(";HEIGHT:") && !told) told = number<double>(trimmed(gap_[i].text.substr(8)));
+      }
+      layer.height_mm = told.value_or(print_.layers[print_.moves[move_ - 1].layer].height_mm);
+    } else if (r_.layers.empty()) {
+      refuse(at_, "a road before the first layer");
+    } else {
+      header_begin = tool_at;
+    }
+    if (std::abs(r_.layers.back().z_mm - from.z) > same_height_mm)
+      refuse(at_, "roads of several heights in one layer are not re-planned yet");
+    const std::size_t own_end = has_layer_mark_ ? mark_in_gap_ : tool_at;
+    if (has_tool_) {
+      std::vector<std::string> enter;
+      for (std::size_t i = tool_at; i < gap_.size(); ++i) enter.emplace_back(gap_[i].text);
+      require_same(r_.enter, tool_, enter);
+      if (has_layer_mark_) {
+        mixed_.push_back({r_.layers.size() - 1, from_tool_, gap_[tool_at].offset});
+        for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
+      } else {
+        std::vector<std::string> leave;
+        for (std::size_t i = 0; i < tool_at; ++i) leave.emplace_back(gap_[i].text);
+        require_same(r_.leave, from_tool_, leave);
+      }
+    } else {
+      for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
+    }
+    r_.layers.back().runs.push_back({.tool = tool_,
+                                     .from = {to_um(from.x), to_um(from.y)},
+                                     .roads = {},
+                                     .notes = std::move(notes),
+                                     .way = std::move(way_),
+                                     .leaving = {},
+                                     .drawn_back = drawn_back_ || has_tool_,
+                                     .back_after = has_tool_ ? 0 : back_after_});
+    if (!run().way.empty()) run().way.pop_back();  // its start
+    way_.clear();
+    gap_.clear();
+    breaks_ = has_layer_mark_ = has_tool_ = left_header_ = drawn_back_ = travelled_after_tool_ = false;
+    moved_among_notes_ = false;
+    back_after_ = 0;
+  }
+
+  struct Note {
+    std::string_view text;
+    std::size_t offset = 0;
+    bool is_command = false;
+  };
+
+  void notes_of(const Note& note, std::vector<std::string>& notes) const {
+    if (note.is_command)
+      refuse(note.offset, fmt::format("'{}' between two roads: it cannot be moved; take it out of the slicer's custom "
+                                      "G-code",
+                                      shown(trimmed(note.text))));
+    notes.emplace_back(note.text);
+  }
+
+  void require_same(std::map<int, std::vector<std::string>>& changes, int tool, std::vector<std::string>& lines) const {
+    const auto known = changes.try_emplace(tool, lines).first;
+    if (known->second == lines) return;
+    refuse(at_, fmt::format("the change of tool T{} before this line is not as it was before: only changes that are "
+                            "the same each time can be moved; look at the custom G-code of tool and filament",
+                            tool));
+  }
+
+  /// Of a layer that begins with another tool: the last lines of its header are those that the tool is left with.
+  void part_headers_and_changes() {
+    for (const Mixed& m : mixed_) {
+      std::vector<std::string>& header = r_.layers[m.layer].header;
+      const auto known = r_.leave.find(m.from_tool);
+      std::size_t plain = header.size();
+      while (plain > 0 && !header[plain - 1].starts_with(";HEIGHT:") && !header[plain - 1].starts_with(";Z:")) --plain;
+      const std::size_t length = known != r_.leave.end() ? known->second.size() : header.size() - plain;
+      const auto rest = header.end() - std::ptrdiff_t(std::min(length, header.size()));
+      std::vector<std::string> leave(rest, header.end());
+      const bool ends_so = known == r_.leave.end() || known->second == leave;
+      if (!ends_so)
+        refuse(m.offset,
+               "a layer begins with a tool change that is not as those before; look at the custom G-code of "
+               "tool and filament");
+      r_.leave.try_emplace(m.from_tool, leave);
+      header.erase(rest, header.end());
+    }
+  }
+
+  void finish() {
+    r_.end_tool = tool_;
+    if (r_.states.back() != state_) r_.states.push_back(state_);
+    r_.end_state = std::uint32_t(r_.states.size() - 1);
+    r_.end_count_e5 = count_e5_;
+    r_.end_feed_mm_min = feed_;
+    for (std::size_t k = 1; k < r_.layers.size(); ++k)
+      if (r_.layers[k].z_mm <= r_.layers[k - 1].z_mm + same_height_mm)
+        throw Error(
+            fmt::format("{}: layer {} is no higher than the one before: objects that are printed one after the "
+                        "other are not re-planned",
+                        print_.name, k + 1));
+  }
+
+  struct Mixed {
+    std::size_t layer = 0;
+    int from_tool = 0;
+    std::size_t offset = 0;
+  };
+
+  const GcodePrint& print_;
+  std::string_view text_;
+  RecoveredPrint r_;
+
+  std::size_t at_ = 0, next_ = 0, move_ = 0;
+  std::string_view raw_;
+  GcodeLine line_;
+
+  ModalState state_;
+  bool state_changed_ = true;
+  int tool_ = 0, from_tool_ = 0;
+  double feed_ = 0;
+  std::int64_t count_e5_ = 0;
+  std::vector<std::int64_t> drawn_back_e5_;
+
+  // Since the last road:
+  std::vector<Note> gap_;  // lines to be kept
+  std::vector<FilePoint> way_;
+  std::size_t mark_in_gap_ = 0, tool_in_gap_ = 0;  // where the layer begins and the tool changes
+  bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false, drawn_back_ = false;
+  bool travelled_after_tool_ = false, moved_among_notes_ = false;
+  std::size_t back_after_ = 0;
+  std::vector<Mixed> mixed_;
+};
+
+}  // namespace
+
+RecoveredPrint recovered_print(const GcodePrint& print) {
+  return Recovery(print).result();
+}
+
+}  // namespace cleancolor

@@ -1,0 +1,77 @@
+// replan/recovered.hpp
+//
+// Recovered print: a file of another slicer taken apart into what can be put in another order, and what cannot.
+//
+//   text and moves  ->  start | layers: header, runs with all that held while they were printed | end; tool changes
+//
+// A run is what one nozzle extrudes without a break. Travel, drawing back and tool changes between runs are not kept as
+// they are: they are made anew. Lines that set something until it is set again (replan/modal.hpp) become the state that
+// each road is printed under. A tool change is the lines that the file has for it, the same each time. All other lines
+// stay: where they cannot be kept in their place for sure, the file is refused.
+//
+// Places are the file's own, in whole micrometres, and filament in 1e-5 mm, so that nothing drifts.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reader/print.hpp"
+#include "replan/modal.hpp"
+
+namespace cleancolor {
+
+struct FilePoint {
+  std::int64_t x_um = 0, y_um = 0;
+  friend bool operator==(const FilePoint&, const FilePoint&) = default;
+};
+
+struct RunRoad {
+  FilePoint to;
+  std::int64_t filament_e5 = 0;
+  double feed_mm_min = 0;
+  std::uint32_t state = 0;  // index into RecoveredPrint::states
+  std::uint32_t move = 0;   // index into GcodePrint::moves
+};
+
+struct RecoveredRun {
+  int tool = 0;
+  FilePoint from;
+  std::vector<RunRoad> roads;      // at least one
+  std::vector<std::string> notes;  // comments that stand before it
+  std::vector<FilePoint> way;      // passed on the way here in the file
+  std::vector<FilePoint> leaving;  // passed after it before the tool or the layer changes
+  bool drawn_back = false;         // on the way here,
+  std::size_t back_after = 0;      // where so many places of the way were passed
+};
+
+struct RecoveredLayer {
+  std::vector<std::string> header;  // lines
+  double z_mm = 0;                  // of the nozzle while it prints
+  double height_mm = 0;
+  std::vector<RecoveredRun> runs;  // as in the file
+};
+
+struct RecoveredPrint {
+  std::size_t begin = 0, end = 0;  // of the layers in the text, bytes: what lies outside stays as it is
+  std::vector<RecoveredLayer> layers;
+  std::vector<ModalState> states;
+
+  std::map<int, std::vector<std::string>> leave;  // lines that a tool is left with
+  std::map<int, std::vector<std::string>> enter;  // and taken with: its T and what follows
+
+  bool relative_e = false;
+  int begin_tool = 0, end_tool = 0;                   // in use where the layers begin, and where they end
+  std::uint32_t begin_state = 0, end_state = 0;       // likewise
+  std::vector<std::int64_t> begin_drawn_back_e5;      // of each tool
+  std::int64_t begin_count_e5 = 0, end_count_e5 = 0;  // of E
+  double end_feed_mm_min = 0;
+  std::size_t progress_lines = 0;  // M73 among the layers: told anew
+};
+
+/// Throws Error("file:line: ...") for what cannot be put in another order for sure; it says what to do.
+/// Requires: the print has its text.  Cost: 50 ns a line and as much memory as the text.
+RecoveredPrint recovered_print(const GcodePrint& print);
+
+}  // namespace cleancolor

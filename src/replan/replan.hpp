@@ -1,0 +1,45 @@
+// replan/replan.hpp
+//
+// Replan: G-code of another slicer, with all its paths and settings, in an order and by ways that keep colours clean.
+//
+//   print, printer  ->  text
+//
+// The paths are found again (replan/recovered.hpp), planned as our own are (replan/planning.hpp), and written back in
+// the dialect of the file (replan/written.hpp); what comes out is read again and compared (replan/same_print.hpp).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit/machine.hpp"
+#include "base/progress.hpp"
+#include "model/config.hpp"
+#include "reader/print.hpp"
+
+namespace cleancolor {
+
+/// --protect
+enum class ReplanProtection { none, rampart, full };
+
+struct ReplanRequest {
+  std::optional<Config> printer = {};  // a profile; the file's configuration is put over it
+  ReplanProtection protection = ReplanProtection::full;
+  bool keeps_order = false;  // order, starts and travel stay those of the file
+  int threads = 1;
+};
+
+struct Replanned {
+  std::string text;     // of the file
+  bool changed = true;  // false: it had been re-planned before, and is as it was
+  double time_s = 0;    // predicted, of both
+  double old_time_s = 0;
+};
+
+/// Throws Error("file:line: ...") for files that cannot be re-planned for sure; it says what to do.
+/// Requires: the print has its text.  The same text for any number of threads.
+/// Cost: about as long as slicing the part.
+Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request,
+                    const Progress& progress = {});
+
+}  // namespace cleancolor

@@ -1,0 +1,118 @@
+#include "replan/same_print.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
+
+namespace cleancolor {
+namespace {
+
+constexpr double same_share = 1e-4;
+constexpr double rounding_mm = 0.01;  // of filament
+constexpr double seam_share = 0.02;   // of the roads' cells at most differ, where seams moved
+
+using ToolRole = std::pair<int, Role>;
+
+bool is_part(const GcodeMove& move) {
+  return !is_auxiliary(move.role);
+}
+
+std::map<ToolRole, double> filament_mm(const GcodePrint& print) {
+  std::map<ToolRole, double> sums;
+  for (std::size_t i = 0; i < print.moves.size(); ++i)
+    if (lays_plastic(print, i) && is_part(print.moves[i]))
+      sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
+  return sums;
+}
+
+/// Length of road of each tool in each cell of 0.4 mm and layer height, in cells that roads pass through their middles.
+using Cell = std::tuple<int, std::int64_t, std::int64_t, std::int64_t>;
+std::vector<std::pair<Cell, double>> cells(const GcodePrint& print) {
+  constexpr double cell_mm = 0.4, step_mm = 0.1;
+  std::vector<std::pair<Cell, double>> all;
+  for (std::size_t i = 1; i < print.moves.size(); ++i) {
+    if (!lays_plastic(print, i) || !is_part(print.moves[i])) continue;
+    const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const int steps = int(length / step_mm) + 1;
+    for (int s = 0; s < steps; ++s) {
+      const double t = (s + 0.5) / steps;
+      const Cell cell{print.moves[i].feeds, std::llround(b.z * 1e3),
+                      std::int64_t(std::floor((a.x + (b.x - a.x) * t) / cell_mm)),
+                      std::int64_t(std::floor((a.y + (b.y - a.y) * t) / cell_mm))};
+      if (!all.empty() && all.back().first == cell)
+        all.back().second += length / steps;
+      else
+        all.emplace_back(cell, length / steps);
+    }
+  }
+  std::ranges::sort(all);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (kept > 0 && all[kept - 1].first == all[i].first)
+      all[kept - 1].second += all[i].second;
+    else
+      all[kept++] = all[i];
+  }
+  all.resize(kept);
+  return all;
+}
+
+/// How much road the cells have that the others do not have.
+double beyond_mm(const std::vector<std::pair<Cell, double>>& all, const std::vector<std::pair<Cell, double>>& others) {
+  double sum = 0;
+  auto other = others.begin();
+  for (const auto& [cell, mm] : all) {
+    while (other != others.end() && other->first < cell) ++other;
+    const double there = other != others.end() && other->first == cell ? other->second : 0;
+    sum += std::max(0., mm - there);
+  }
+  return sum;
+}
+
+double sum_mm(const std::vector<std::pair<Cell, double>>& all) {
+  double sum = 0;
+  for (const auto& entry : all) sum += entry.second;
+  return sum;
+}
+
+/// The line of a road that is laid while filament is drawn back; nothing where there is none.
+std::optional<std::size_t> starved_line(const GcodePrint& print) {
+  std::vector<double> back_mm(max_tools, 0.);
+  for (std::size_t i = 0; i < print.moves.size(); ++i) {
+    const GcodeMove& move = print.moves[i];
+    if (lays_plastic(print, i) && back_mm[move.feeds] > rounding_mm && is_part(move))
+      return line_number(*print.text, move.offset);
+    back_mm[move.feeds] = std::max(0., back_mm[move.feeds] - move.filament_mm);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> difference(const GcodePrint& before, const GcodePrint& after, const AuditMachine& machine) {
+  if (after.tools > int(machine.nozzles.size())) return "another tool is in use";
+  const auto old_mm = filament_mm(before), new_mm = filament_mm(after);
+  for (const auto& [what, mm] : old_mm) {
+    const auto found = new_mm.find(what);
+    const double now = found == new_mm.end() ? 0 : found->second;
+    if (std::abs(now - mm) > same_share * mm + rounding_mm)
+      return fmt::format("extruder {} pushes {:.3f} mm of filament for {} instead of {:.3f}", what.first + 1, now,
+                         role_name(what.second), mm);
+  }
+  for (const auto& [what, mm] : new_mm)
+    if (!old_mm.contains(what)) return fmt::format("there is {} that was not there", role_name(what.second));
+  const auto old_cells = cells(before), new_cells = cells(after);
+  const double all = sum_mm(old_cells), lost = beyond_mm(old_cells, new_cells), added = beyond_mm(new_cells, old_cells);
+  if (std::max(lost, added) > seam_share * all)
+    return fmt::format("{:.1f} mm of road are missing and {:.1f} mm were not there, of {:.0f} mm", lost, added, all);
+  if (const auto line = starved_line(after))
+    return fmt::format("line {} would lay plastic while filament is drawn back", *line);
+  return std::nullopt;
+}
+
+}  // namespace cleancolor

@@ -1,0 +1,338 @@
+#include "replan/written.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "audit/timeline.hpp"
+#include "base/error.hpp"
+#include "gcode/polyline.hpp"
+#include "replan/emitter.hpp"
+#include "replan/planning.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr double same_place_mm = 0.002;
+constexpr std::int64_t unknown_way_um = 1'000'000'000;
+
+double length_um(FilePoint a, FilePoint b) {
+  return std::hypot(double(b.x_um - a.x_um), double(b.y_um - a.y_um));
+}
+FilePoint between(FilePoint a, FilePoint b, double share) {
+  return {a.x_um + std::llround(double(b.x_um - a.x_um) * share),
+          a.y_um + std::llround(double(b.y_um - a.y_um) * share)};
+}
+
+/// One road with both its ends.
+struct Piece {
+  FilePoint from, to;
+  std::int64_t filament_e5 = 0;
+  double feed_mm_min = 0;
+  std::uint32_t state = 0;
+};
+
+std::vector<Piece> pieces_of(const RecoveredRun& run) {
+  std::vector<Piece> pieces;
+  FilePoint from = run.from;
+  for (const RunRoad& road : run.roads) {
+    pieces.push_back({from, road.to, road.filament_e5, road.feed_mm_min, road.state});
+    from = road.to;
+  }
+  return pieces;
+}
+
+std::vector<Piece> backwards(std::vector<Piece> pieces) {
+  std::ranges::reverse(pieces);
+  for (Piece& p : pieces) std::swap(p.from, p.to);
+  return pieces;
+}
+
+/// Both parts of a piece.
+std::pair<Piece, Piece> cut(const Piece& piece, FilePoint at) {
+  const double whole = length_um(piece.from, piece.to);
+  const double share = whole > 0 ? length_um(piece.from, at) / whole : 0;
+  Piece first = piece, second = piece;
+  first.to = second.from = at;
+  first.filament_e5 = std::llround(double(piece.filament_e5) * share);
+  second.filament_e5 = piece.filament_e5 - first.filament_e5;
+  return {first, second};
+}
+
+/// Cuts so much off the end; returns the filament that went with it.
+std::int64_t cut_end(std::vector<Piece>& pieces, double gap_um) {
+  std::int64_t filament = 0;
+  while (!pieces.empty() && gap_um > 0.5) {
+    Piece& last = pieces.back();
+    const double length = length_um(last.from, last.to);
+    if (length > gap_um + 0.5) {
+      const auto [kept, rest] = cut(last, between(last.from, last.to, 1 - gap_um / length));
+      filament += rest.filament_e5;
+      last = kept;
+      break;
+    }
+    filament += last.filament_e5;
+    gap_um -= length;
+    pieces.pop_back();
+  }
+  return filament;
+}
+
+class Writing {
+ public:
+  Writing(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine, const Config& config,
+          const WriteOptions& options)
+      : recovered_(recovered),
+        print_(print),
+        machine_(machine),
+        config_(config),
+        options_(options),
+        out_(recovered, config, start_of_text()),
+        asked_mm_(config.extruders.size(), 0.),
+        written_e5_(config.extruders.size(), 0) {
+    find_plain_states();
+  }
+
+  std::string text(const std::vector<Layer>& layers) {
+    for (std::size_t k = 0; k < layers.size(); ++k) layer(k, layers[k]);
+    if (out_.tool() != recovered_.end_tool) {
+      draw_back_for_change();
+      out_.change_tool(recovered_.end_tool);
+    }
+    out_.set(recovered_.states[recovered_.end_state]);
+    std::string text = out_.finish();
+    text += print_.text->substr(recovered_.end);
+    return text;
+  }
+
+ private:
+  /// With our line behind the first one.
+  std::string start_of_text() const {
+    std::string start = print_.text->substr(0, recovered_.begin);
+    if (options_.header.empty()) return start;
+    start.insert(std::min(start.find('\n'), start.size() - 1) + 1, options_.header + "\n");
+    return start;
+  }
+
+  /// Of each tool and layer the state of a wall: walls of the rampart are printed under it.
+  void find_plain_states() {
+    const std::size_t layers = recovered_.layers.size(), tools = config_.extruders.size();
+    std::vector<std::optional<std::uint32_t>> last(tools);
+    plain_state_.assign(layers, std::vector<std::uint32_t>(tools, recovered_.begin_state));
+    for (const bool back : {true, false})  // what follows serves where nothing came before
+      for (std::size_t i = 0; i < layers; ++i) {
+        const std::size_t k = back ? layers - 1 - i : i;
+        std::vector<std::optional<std::uint32_t>> own(tools);
+        for (const RecoveredRun& run : recovered_.layers[k].runs) {
+          const auto t = std::size_t(run.tool);
+          if (!own[t]) own[t] = run.roads.front().state;
+        }
+        for (std::size_t t = 0; t < tools; ++t) {
+          if (own[t]) last[t] = own[t];
+          if (last[t]) plain_state_[k][t] = *last[t];
+        }
+      }
+  }
+
+  void draw_back() {
+    const Extruder& e = config_.extruders[std::size_t(out_.tool())];
+    out_.draw_back(std::llround(e.retract_length_mm * 1e5));
+    if (e.retract_lift_mm > 0) out_.lift(e.retract_lift_mm);
+  }
+
+  void draw_back_for_change() {
+    const Extruder& e = config_.extruders[std::size_t(out_.tool())];
+    out_.draw_back(std::llround(e.retract_length_toolchange_mm * 1e5));
+    if (e.retract_lift_mm > 0) out_.lift(e.retract_lift_mm);
+  }
+
+  void layer(std::size_t k, const Layer& planned) {
+    const RecoveredLayer& source = recovered_.layers[k];
+    layer_ = k;
+    std::vector<char> is_written(source.runs.size(), 0);
+    out_.header(source.header);
+    if (recovered_.progress_lines > 0) out_.line(progress_placeholder);
+    const Extruder& e = config_.extruders[std::size_t(out_.tool())];
+    if (options_.as_in_file ? source.runs.front().drawn_back : e.retract_layer_change) draw_back();
+    out_.set_z(source.z_mm);
+    for (const Path& path : planned.paths) {
+      if (path.source < 0) {
+        own_path(path, k);
+        continue;
+      }
+      const RecoveredRun& run = source.runs.at(std::size_t(path.source));
+      if (std::exchange(is_written[std::size_t(path.source)], char(1)) != 0) fail("a path is planned twice");
+      recovered_path(path, run);
+    }
+    if (std::ranges::find(is_written, 0) != is_written.end()) fail("a path is not planned");
+  }
+
+  [[noreturn]] void fail(std::string_view what) const {
+    throw Error(fmt::format("{}: layer {}: {}; the file cannot be re-planned; please report it", print_.name,
+                            layer_ + 1, what));
+  }
+
+  FilePoint in_file(Vec2 place, int tool) const {
+    if (machine_.offsets_in == OffsetsIn::slicer) place = place - nozzle_offset_mm(machine_, tool);
+    return {std::llround(place.x * 1e3), std::llround(place.y * 1e3)};
+  }
+
+  void go(const Path& path, FilePoint start, const RecoveredRun* run) {
+    const bool changes = path.extruder != out_.tool();
+    if (options_.as_in_file && run != nullptr) return go_as_in_file(*run, start);
+    double way_um = out_.is_known() ? 0 : double(unknown_way_um);
+    FilePoint from = out_.at();
+    std::vector<FilePoint> way;
+    for (const Vec2 p : path.travel) way.push_back(in_file(p, path.extruder));
+    way.push_back(start);
+    for (const FilePoint p : way) way_um += length_um(from, p), from = p;
+    if (changes) {
+      draw_back_for_change();
+      out_.change_tool(path.extruder);
+    }
+    const Extruder& e = config_.extruders[std::size_t(path.extruder)];
+    if (way_um > e.retract_before_travel_mm * 1e3 - 1) draw_back();
+    for (const FilePoint p : way) out_.travel(p);
+  }
+
+  void go_as_in_file(const RecoveredRun& run, FilePoint start) {
+    if (run.tool != out_.tool()) {
+      draw_back_for_change();
+      out_.change_tool(run.tool);
+      draw_back();
+    }
+    for (std::size_t i = 0; i < run.way.size(); ++i) {
+      if (run.drawn_back && i == run.back_after) draw_back();
+      out_.travel(run.way[i]);
+    }
+    if (run.drawn_back && run.back_after >= run.way.size()) draw_back();
+    out_.travel(start);
+  }
+
+  void recovered_path(const Path& path, const RecoveredRun& run) {
+    const std::vector<Piece> pieces = begun(path, run);
+    go(path, pieces.front().from, &run);
+    out_.lines(run.notes);
+    out_.lower();
+    out_.push_forward();
+    for (const Piece& p : pieces) {
+      out_.set(recovered_.states[p.state]);
+      out_.road(p.to, p.filament_e5, p.feed_mm_min);
+    }
+    if (options_.as_in_file)
+      for (const FilePoint p : run.leaving) out_.travel(p);
+  }
+
+  /// The roads of the run as the path walks them.
+  std::vector<Piece> begun(const Path& path, const RecoveredRun& run) const {
+    std::vector<Piece> pieces = pieces_of(run);
+    const auto apart_mm = [&](FilePoint at, Vec2 place) { return distance(place_mm(at, run.tool, machine_), place); };
+    if (!path.closed) {
+      if (apart_mm(pieces.front().from, path.points.front()) <= same_place_mm) return pieces;
+      pieces = backwards(std::move(pieces));
+      if (apart_mm(pieces.front().from, path.points.front()) > same_place_mm) fail("a path begins elsewhere");
+      return pieces;
+    }
+    std::size_t best = 0;
+    double least = apart_mm(pieces.front().from, path.start());
+    Vec2 on = path.start();
+    const double gap_um = length_um(pieces.back().to, pieces.front().from);
+    // The seam itself is a place to begin, too.
+    const Vec2 in_gap = nearest_on_segment(place_mm(pieces.back().to, run.tool, machine_),
+                                           place_mm(pieces.front().from, run.tool, machine_), path.start());
+    if (distance(in_gap, path.start()) <= same_place_mm) return pieces;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const Vec2 q = nearest_on_segment(place_mm(pieces[i].from, run.tool, machine_),
+                                        place_mm(pieces[i].to, run.tool, machine_), path.start());
+      if (const double off = distance(q, path.start()); off < least || i == 0) least = off, best = i, on = q;
+    }
+    if (least > same_place_mm) fail("a loop begins beside itself");
+    return begun_at(std::move(pieces), best, in_file(on, run.tool), gap_um);
+  }
+
+  std::vector<Piece> begun_at(std::vector<Piece> pieces, std::size_t index, FilePoint at, double gap_um) const {
+    const auto [before, after] = cut(pieces[index], at);
+    std::vector<Piece> turned;
+    if (after.from != after.to) turned.push_back(after);
+    turned.insert(turned.end(), pieces.begin() + std::ptrdiff_t(index) + 1, pieces.end());
+    std::vector<Piece> rest(pieces.begin(), pieces.begin() + std::ptrdiff_t(index));
+    if (before.from != before.to) rest.push_back(before);
+    // A road too short to be cut keeps its filament in one part.
+    if (before.from == before.to && after.from != after.to) turned.front().filament_e5 = pieces[index].filament_e5;
+    if (after.from == after.to && before.from != before.to) rest.back().filament_e5 = pieces[index].filament_e5;
+    const Piece& last = pieces.back();
+    Piece seam{last.to, pieces.front().from, 0, last.feed_mm_min, last.state};
+    if (gap_um > 0.5) {
+      const auto kind = [&](const Piece& p, std::string_view key) {
+        const auto found = recovered_.states[p.state].find(key);
+        return found == recovered_.states[p.state].end() ? std::string() : found->second;
+      };
+      double length = 0;
+      for (const Piece& p : rest) length += length_um(p.from, p.to);
+      const bool alike = !rest.empty() && length > 2 * gap_um && kind(last, type_key) == kind(rest.back(), type_key);
+      if (alike) seam.filament_e5 = cut_end(rest, gap_um);
+      turned.push_back(seam);
+    }
+    turned.insert(turned.end(), rest.begin(), rest.end());
+    return turned;
+  }
+
+  /// Walls of the rampart, their brim, refills.
+  void own_path(const Path& path, std::size_t k) {
+    const auto tool = std::size_t(path.extruder);
+    const Extruder& e = config_.extruders[tool];
+    Polyline line;
+    lay_out(path, config_.gcode_resolution_mm, config_.seam_gap_distance.of(e.nozzle_diameter_mm), line);
+    if (line.points.size() < 2) return;
+    go(path, in_file(line.points.front(), path.extruder), nullptr);
+    out_.lower();
+    out_.push_forward();
+    ModalState state = recovered_.states[plain_state_[k][tool]];
+    for (auto& [key, text] : state)
+      if (key.starts_with("0 ")) text.clear();  // it belongs to no object
+    const bool refills = path.road().role == Role::refill;
+    const double filament_mm2 = filament_area_mm2(machine_, path.extruder);
+    std::size_t next = 0;
+    Road road;
+    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+      if (next < line.stretches.size() && line.stretches[next].first_segment <= i) {
+        road = line.stretches[next++].road;
+        state[std::string(type_key)] = ";TYPE:Skirt/Brim";
+        state[std::string(width_key)] = fmt::format(";WIDTH:{:.6g}", road.width_mm);
+        state[std::string(height_key)] = fmt::format(";HEIGHT:{:.6g}", road.height_mm);
+        out_.set(state);
+        if (i == 0) out_.line(refills ? ";REFILL_START" : fmt::format(";RAMPART_WALL:{}", path.extruder));
+      }
+      const double mm = distance(line.points[i], line.points[i + 1]);
+      asked_mm_[tool] += mm * road.area_mm2 * e.extrusion_multiplier / filament_mm2;
+      const std::int64_t filament = std::llround(asked_mm_[tool] * 1e5) - written_e5_[tool];
+      written_e5_[tool] += filament;
+      out_.road(in_file(line.points[i + 1], path.extruder), filament, road.speed_mm_s * 60);
+    }
+    if (refills) out_.line(";REFILL_END");
+  }
+
+  const RecoveredPrint& recovered_;
+  const GcodePrint& print_;
+  const AuditMachine& machine_;
+  const Config& config_;
+  const WriteOptions& options_;
+  Emitter out_;
+  std::size_t layer_ = 0;
+  std::vector<std::vector<std::uint32_t>> plain_state_;  // [layer][tool]
+  std::vector<double> asked_mm_;                         // of rampart and refills, by tool
+  std::vector<std::int64_t> written_e5_;
+};
+
+}  // namespace
+
+std::string written(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
+                    const Config& config, const std::vector<Layer>& layers, const WriteOptions& options) {
+  return Writing(recovered, print, machine, config, options).text(layers);
+}
+
+}  // namespace cleancolor

@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include "outcome.hpp"
+
+namespace cleancolor {
+namespace {
+
+const std::string& sliced() {
+  static const std::string text = file_text(std::string(CLEANCOLOR_ROOT) + "/tests/replan/files/prusaslicer.gcode");
+  return text;
+}
+
+TEST(ReplanProgram, WritesAFileAndSaysWhatItTakes) {
+  const TestFolder folder;
+  folder.file("in.gcode", sliced());
+  const Outcome done = run(folder, "replan in.gcode -o out.gcode");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find(" min instead of "), std::string::npos) << done.out;
+  EXPECT_NE(file_text(folder.path("out.gcode")).find("; replanned by cleancolor "), std::string::npos);
+  EXPECT_EQ(file_text(folder.path("in.gcode")), sliced());
+}
+
+TEST(ReplanProgram, EditsInPlaceAsAPostProcessingScriptDoes) {
+  const TestFolder folder;
+  folder.file("in.gcode.pp", sliced());
+  EXPECT_EQ(run(folder, "replan --post-process in.gcode.pp").exit_code, 0);
+  const std::string once = file_text(folder.path("in.gcode.pp"));
+  EXPECT_NE(once, sliced());
+  const Outcome again = run(folder, "replan --post-process in.gcode.pp");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.err.find("re-planned before"), std::string::npos) << again.err;
+  EXPECT_EQ(file_text(folder.path("in.gcode.pp")), once);
+}
+
+TEST(ReplanProgram, TakesFromTheSlicersEnvironmentWhereTheNozzlesAre) {
+  const TestFolder folder;
+  std::string text = sliced();
+  const std::string told = "; extruder_offset = 0x0,33x0\n";
+  ASSERT_NE(text.find(told), text.npos);
+  folder.file("in.gcode", text.erase(text.find(told), told.size()));
+  const Outcome done = run(folder, "replan in.gcode --post-process", "SLIC3R_EXTRUDER_OFFSET=0x0,33x0");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.err.find("does not say"), done.err.npos) << done.err;
+  EXPECT_NE(file_text(folder.path("in.gcode")), text);
+}
+
+TEST(ReplanProgram, DryRunPrintsFiguresAndWritesNothing) {
+  const TestFolder folder;
+  folder.file("in.gcode", sliced());
+  const Outcome done = run(folder, "replan in.gcode --dry-run");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find("smear_volume"), std::string::npos) << done.out;
+  EXPECT_EQ(file_text(folder.path("in.gcode")), sliced());
+}
+
+TEST(ReplanProgram, RefusesOrHandsOnWhatItCannotPlan) {
+  const TestFolder folder;
+  std::string text = sliced();
+  text.insert(text.find(";LAYER_CHANGE", text.size() / 3), "M600\n");
+  folder.file("in.gcode", text);
+  const Outcome refused = run(folder, "replan in.gcode -o out.gcode");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("in.gcode:"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("out.gcode")));
+  const Outcome handed_on = run(folder, "replan in.gcode -o out.gcode --keep-going");
+  EXPECT_EQ(handed_on.exit_code, 0);
+  EXPECT_NE(handed_on.err.find("M600"), std::string::npos) << handed_on.err;
+  EXPECT_EQ(file_text(folder.path("out.gcode")), text);
+  EXPECT_EQ(run(folder, "replan in.gcode --post-process --keep-going").exit_code, 0);
+  EXPECT_EQ(file_text(folder.path("in.gcode")), text);
+}
+
+TEST(ReplanProgram, HandsOnBinaryFilesWithAHint) {
+  const TestFolder folder;
+  const std::string binary("GCDE\1\0\0\0\1\0\0\0", 12);
+  folder.file("in.gcode", binary);
+  EXPECT_EQ(run(folder, "replan in.gcode -o out.gcode").exit_code, 2);
+  const Outcome handed_on = run(folder, "replan in.gcode --post-process --keep-going");
+  EXPECT_EQ(handed_on.exit_code, 0);
+  EXPECT_NE(handed_on.err.find("binary"), std::string::npos) << handed_on.err;
+  EXPECT_EQ(file_text(folder.path("in.gcode")), binary);
+}
+
+TEST(ReplanProgram, TellsWhatItDoesNotUnderstand) {
+  const TestFolder folder;
+  folder.file("in.gcode", sliced());
+  EXPECT_EQ(run(folder, "replan in.gcode").exit_code, 2);
+  EXPECT_EQ(run(folder, "replan in.gcode -o out.gcode --order keep").exit_code, 2);
+  EXPECT_EQ(run(folder, "replan in.gcode -o out.gcode --protect most").exit_code, 2);
+  EXPECT_EQ(run(folder, "replan -o out.gcode").exit_code, 2);
+  EXPECT_EQ(run(folder, "replan --help").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace cleancolor

@@ -1,0 +1,286 @@
+// Files of PrusaSlicer: the fixture is two bars of two colours, 40 x 8 mm each, side by side in 8 layers, by
+// PrusaSlicer 2.5.0.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "replanning.hpp"
+
+namespace cleancolor {
+namespace {
+
+using namespace test;
+
+const std::string& bar() {
+  static const std::string text = fixture("prusaslicer.gcode");
+  return text;
+}
+const std::string& bar_replanned() {
+  static const std::string text = replanned_text(bar()).text;
+  return text;
+}
+
+/// The same print with E in lengths instead of counts.
+std::string with_relative_e(const std::string& text) {
+  std::istringstream in(text);
+  std::string line, out;
+  double count = 0;
+  while (std::getline(in, line)) {
+    const std::size_t e = line.find(" E");
+    if (line.starts_with("M82")) line = "M83";
+    if (line.starts_with("G92 E")) {
+      count = 0;
+    } else if (line.starts_with("G1 ") && e != line.npos) {
+      std::size_t length = 0;
+      const double told = std::stod(line.substr(e + 2), &length);
+      line.replace(e + 2, length, fmt::format("{:.5f}", told - count));
+      count = told;
+    }
+    out += line + "\n";
+  }
+  return out;
+}
+
+TEST(ReplanPrusaSlicer, KeepsFilamentOfEachToolAndRole) {
+  const auto before = part_filament(read_gcode(bar(), "")), after = part_filament(read_gcode(bar_replanned(), ""));
+  ASSERT_EQ(before.size(), after.size());
+  for (const auto& [what, mm] : before) {
+    SCOPED_TRACE(role_name(what.second));
+    EXPECT_NEAR(after.at(what), mm, 1e-4 * mm);
+  }
+}
+
+TEST(ReplanPrusaSlicer, PrintsEveryRoadOnceButForSeamsThatMoved) {
+  const auto before = part_roads(read_gcode(bar(), "")), after = part_roads(read_gcode(bar_replanned(), ""));
+  double missing_mm = 0, added_mm = 0;
+  int missing = 0;
+  for (const auto& [road, times] : before) {
+    const auto found = after.find(road);
+    const int there = found == after.end() ? 0 : found->second;
+    EXPECT_LE(there, times);
+    if (there < times) ++missing, missing_mm += length_mm(road);
+  }
+  for (const auto& [road, times] : after)
+    if (!before.contains(road)) added_mm += length_mm(road);
+  // Two walls of two colours in eight layers: each cut once, and once where its gap was and is.
+  EXPECT_LE(missing, 2 * 2 * 2 * 8);
+  EXPECT_NEAR(added_mm, missing_mm, 0.01 * 2 * 2 * 8);
+}
+
+TEST(ReplanPrusaSlicer, WithOrderAndTravelKeptMakesTheSameMoves) {
+  for (const std::string& text : {bar(), with_relative_e(bar())}) {
+    const GcodePrint before = read_gcode(text, ""),
+                     after = read_gcode(replanned_text(text, {.keeps_order = true}).text, "");
+    const auto moving = [](const GcodePrint& print) {
+      std::vector<std::pair<Vec3, double>> moves;
+      for (const GcodeMove& m : print.moves) {
+        const bool moves_at_all = moves.empty() || m.to_mm != moves.back().first || std::abs(m.filament_mm) > 1e-9;
+        if (moves_at_all) moves.emplace_back(m.to_mm, std::round(m.filament_mm * 1e5));
+      }
+      return moves;
+    };
+    EXPECT_EQ(moving(before), moving(after));
+  }
+}
+
+TEST(ReplanPrusaSlicer, PlannedAgainChangesNothingAndSaysSo) {
+  const Replanned again = replanned_text(bar_replanned());
+  EXPECT_FALSE(again.changed);
+  EXPECT_EQ(again.text, bar_replanned());
+}
+
+TEST(ReplanPrusaSlicer, IsTheSameForAnyNumberOfThreads) {
+  EXPECT_EQ(bar_replanned(), replanned_text(bar(), {.threads = 3}).text);
+}
+
+TEST(ReplanPrusaSlicer, KeepsStartAndEndToTheLetter) {
+  const std::string& out = bar_replanned();
+  const std::size_t first = bar().find(";LAYER_CHANGE"), line = bar().find('\n') + 1;
+  EXPECT_EQ(out.substr(0, line), bar().substr(0, line));
+  const std::size_t ours = out.find('\n', line) + 1;
+  EXPECT_TRUE(out.substr(line).starts_with("; replanned by cleancolor "));
+  EXPECT_EQ(out.substr(ours, first - line), bar().substr(line, first - line));
+  const std::string end =
+      bar().substr(bar().rfind("\nM107"), bar().find("; estimated printing time") - bar().rfind("\nM107"));
+  EXPECT_NE(out.find(end), out.npos);
+  const std::size_t config = bar().find("; prusaslicer_config = begin");
+  EXPECT_TRUE(out.ends_with(bar().substr(config)));
+}
+
+TEST(ReplanPrusaSlicer, TellsTheTimeThatItTakesNow) {
+  const Replanned result = replanned_text(bar());
+  const double before = read_gcode(bar(), "").facts.told_time_s, after = read_gcode(result.text, "").facts.told_time_s;
+  EXPECT_NEAR(after / before, result.time_s / result.old_time_s, 0.01);
+}
+
+TEST(ReplanPrusaSlicer, TellsTheRemainingTimeAnew) {
+  const std::size_t layers = bar().find(";LAYER_CHANGE");
+  const std::string text = with_line(with_line(bar(), "M73 P50 R3", ";TYPE:", layers), "M73 P0 R6", "G28");
+  const std::string out = replanned_text(text).text;
+  std::vector<int> percent;
+  for (std::size_t at = out.find("\nM73 P"); at != out.npos; at = out.find("\nM73 P", at + 1))
+    percent.push_back(std::atoi(out.c_str() + at + 6));
+  EXPECT_EQ(percent.size(), 9u);  // in the start code, and one a layer
+  EXPECT_TRUE(std::ranges::is_sorted(percent));
+  EXPECT_EQ(percent.front(), 0);
+  EXPECT_GT(percent.back(), 80);
+  EXPECT_LT(percent.back(), 100);
+}
+
+TEST(ReplanPrusaSlicer, PrintsWithRelativeEAsWithCounts) {
+  const std::string relative = replanned_text(with_relative_e(bar())).text;
+  EXPECT_EQ(relative.find("M82"), relative.npos);
+  const auto counts = part_filament(read_gcode(bar_replanned(), "")), lengths = part_filament(read_gcode(relative, ""));
+  for (const auto& [what, mm] : counts) EXPECT_NEAR(lengths.at(what), mm, 1e-4 * mm + 1e-3);
+}
+
+TEST(ReplanPrusaSlicer, KeepsLabelsAroundTheirRoads) {
+  const std::string label = "; printing object bar id:0 copy 0";
+  std::string text = with_line(bar(), label, ";TYPE:Perimeter", bar().find(";LAYER_CHANGE"));
+  const std::size_t second = text.find(";LAYER_CHANGE", text.find(label));
+  text.insert(second, "; stop printing object bar id:0 copy 0\n");
+  const std::string out = replanned_text(text).text;
+  const std::size_t begins = out.find(label), ends = out.find("; stop printing object bar");
+  EXPECT_LT(begins, ends);
+  EXPECT_EQ(out.substr(begins, ends - begins).find(";RAMPART_WALL"), out.npos);  // it belongs to no object
+}
+
+TEST(ReplanPrusaSlicer, PrintsEachRoadWithItsFanAndAcceleration) {
+  const std::string text = with_line(with_line(bar(), "M106 S77", ";TYPE:Solid infill", bar().find(";LAYER_CHANGE")),
+                                     "M204 S800", ";TYPE:Solid infill", bar().find(";LAYER_CHANGE"));
+  const std::string back = with_line(text, "M106 S10", "T1", text.find("M106 S77"));
+  const auto under = [](const std::string& all) {  // filament under each fan, 1e-5 mm
+    std::map<std::string, long> sums;
+    const GcodePrint print = read_gcode(all, "");
+    std::string fan;
+    std::size_t move = 0;
+    for (std::size_t at = 0; at < all.size(); at = all.find('\n', at) + 1) {
+      if (all.compare(at, 4, "M106") == 0 || all.compare(at, 4, "M107") == 0)
+        fan = all.substr(at, all.find('\n', at) - at);
+      for (; move < print.moves.size() && print.moves[move].offset <= at; ++move)
+        if (lays_plastic(print, move) && !is_auxiliary(print.moves[move].role))
+          sums[fan] += std::lround(print.moves[move].filament_mm * 1e5);
+    }
+    return sums;
+  };
+  const auto before = under(back), after = under(replanned_text(back).text);
+  for (const auto& [fan, filament] : before)
+    EXPECT_NEAR(double(after.at(fan)), double(filament), 1e-4 * double(filament) + 50) << fan;
+}
+
+TEST(ReplanPrusaSlicer, SmearsAnEighthOfIt) {
+  const Cleanness before = cleanness(bar()), after = cleanness(bar_replanned());
+  ASSERT_GT(before.smear_mm3, 1);
+  EXPECT_LE(after.smear_mm3, std::max(0.2, before.smear_mm3 / 8));
+}
+
+TEST(ReplanPrusaSlicer, RefusesWithLineAndReasonWhatItDoesNotKnowForSure) {
+  const std::size_t layers = bar().find(";LAYER_CHANGE", bar().find(";LAYER_CHANGE") + 1);
+  const auto among = [&](const std::string& line) { return with_line(bar(), line, ";TYPE:", layers); };
+  EXPECT_ERROR(replanned_text(among("G2 X1 Y1 I5 J5 E1")), "arc");
+  EXPECT_ERROR(replanned_text(among("M600")), "M600");
+  EXPECT_ERROR(replanned_text(among("PAUSE_HERE")), "PAUSE_HERE");
+  EXPECT_ERROR(replanned_text(among("PAUSE_HERE")), "in.gcode:");
+  EXPECT_ERROR(replanned_text(among("G4 P5")), "G4 P5");
+  EXPECT_ERROR(replanned_text(among("M83")), "M83");
+  EXPECT_ERROR(replanned_text(among("G92 X5")), "G92");
+  EXPECT_ERROR(replanned_text(among("M104 S200")), "without a tool");
+  EXPECT_ERROR(replanned_text(among("G11")), "firmware");
+  EXPECT_ERROR(replanned_text(replaced(bar(), "; spiral_vase = 0", "; spiral_vase = 1")), "vase");
+  EXPECT_ERROR(replanned_text(replaced(bar(), "; complete_objects = 0", "; complete_objects = 1")), "one after the");
+  EXPECT_ERROR(replanned_text(replaced(bar(), "; wipe_tower = 0", "; wipe_tower = 1")), "wipe tower");
+  EXPECT_ERROR(replanned_text(replaced(bar(), "; wipe = 0,0", "; wipe = 1,1")), "wip");
+  EXPECT_ERROR(replanned_text(replaced(bar(), ";TYPE:Perimeter", ";TYPE:Support material")), "support");
+  EXPECT_ERROR(replanned_text(replaced(bar(), "generated by PrusaSlicer", "generated by Slic3r")), "Slic3r");
+  EXPECT_ERROR(replanned_text(replaced(bar(), "generated by PrusaSlicer", "generated by cleancolor")), "already");
+}
+
+/// Lines left out, said twice, swapped or with another letter: whatever comes in is refused, or planned whole.
+TEST(ReplanPrusaSlicer, RefusesDamagedFilesOrPlansThemWhole) {
+  std::vector<std::string> lines;
+  std::istringstream in(bar());
+  for (std::string line; std::getline(in, line);) lines.push_back(line + "\n");
+  int planned = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::vector<std::string> damaged = lines;
+    for (int i = 0; i < 1; ++i) {
+      const std::size_t at = random() % (damaged.size() - 400), other = random() % (damaged.size() - 400);
+      const auto place = damaged.begin() + std::ptrdiff_t(at);
+      switch (random() % 4) {
+        case 0:
+          damaged.erase(place);
+          break;
+        case 1:
+          damaged.insert(place, std::string(damaged[other]));
+          break;
+        case 2:
+          std::swap(damaged[at], damaged[other]);
+          break;
+        default:
+          damaged[at][0] = char('A' + random() % 26);
+      }
+    }
+    std::string text;
+    for (const std::string& line : damaged) text += line;
+    std::string out;
+    try {
+      out = replanned_text(text).text;
+    } catch (const Error&) {
+      continue;
+    }
+    ++planned;
+    const auto before = part_filament(read_gcode(text, "")), after = part_filament(read_gcode(out, ""));
+    for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm + 0.01);
+  }
+  EXPECT_GT(planned, 5);
+}
+
+TEST(ReplanPrusaSlicer, WithoutRoomForARampartDoesWithoutAndWarns) {
+  Warned warned;
+  const Replanned result = replanned_text(
+      replaced(bar(), "; bed_shape = ", "; bed_shape = -21x-9,21x-9,21x9,-21x9\n; old = "), {}, warned.progress);
+  EXPECT_EQ(result.text.find(";RAMPART_WALL"), result.text.npos);
+  ASSERT_FALSE(warned.warnings.empty());
+  EXPECT_NE(warned.warnings.back().find("without a rampart"), std::string::npos);
+}
+
+/// The models of the paper through PrusaSlicer itself, where it and they are at hand.
+struct Model {
+  const char *name, *first, *second;
+  bool holes;  // it has holes to speak of
+};
+class ReplanModels : public testing::TestWithParam<Model> {};
+
+TEST_P(ReplanModels, ComeOutClean) {
+  const std::string shared = CLEANCOLOR_SHARED, script = shared + "/peers/slice-prusa.sh";
+  if (!std::filesystem::exists(script) || std::system("command -v prusa-slicer > /dev/null") != 0)
+    GTEST_SKIP() << "needs PrusaSlicer and " << script;
+  const Model& m = GetParam();
+  const TestFolder folder;
+  const std::string out = folder.path("sliced.gcode");
+  const std::string command =
+      fmt::format("'{0}' '{1}/models/paper/{2}' '{1}/models/paper/{3}' '{4}' plain > /dev/null 2>&1", script, shared,
+                  m.first, m.second, out);
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string text = file_text(out), after = replanned_text(text, {.threads = 2}).text;
+  const Cleanness sliced = cleanness(text), clean = cleanness(after);
+  EXPECT_LE(clean.smear_mm3, std::max(0.2, sliced.smear_mm3 / 8));
+  if (m.holes) {
+    EXPECT_LE(clean.hole_mm3, sliced.hole_mm3 / 4);
+  }
+  EXPECT_LE(clean.time_s, 1.3 * sliced.time_s);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paper, ReplanModels,
+                         testing::Values(Model{"world", "two-color-world-50mm_ocean.stl",
+                                               "two-color-world-50mm_land.stl", true},
+                                         Model{"robot_ice", "robot-ice_robot.stl", "robot-ice_crust.stl", false}),
+                         [](const testing::TestParamInfo<Model>& of) { return std::string(of.param.name); });
+
+}  // namespace
+}  // namespace cleancolor

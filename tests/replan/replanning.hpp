@@ -1,0 +1,81 @@
+// For tests of replan: the file of a slicer, and what becomes of it.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "audit/audit.hpp"
+#include "reader/read.hpp"
+#include "replan/replan.hpp"
+#include "support_errors.hpp"
+
+namespace cleancolor::test {
+
+inline std::string fixture(const std::string& name) {
+  return file_text(std::string(CLEANCOLOR_ROOT) + "/tests/replan/files/" + name);
+}
+
+inline Replanned replanned_text(const std::string& text, const ReplanRequest& request = {},
+                                const Progress& progress = {}) {
+  const GcodePrint print = read_gcode(text, "in.gcode");
+  return replanned(print, audit_machine(print, {}), request, progress);
+}
+
+/// The text with one line put before the first that begins so, beyond `after` bytes.
+inline std::string with_line(std::string text, const std::string& line, const std::string& before,
+                             std::size_t after = 0) {
+  const std::size_t at = text.find("\n" + before, after);
+  return text.insert(at + 1, line + "\n");
+}
+
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  return at == text.npos ? text : text.replace(at, what.size(), by);
+}
+
+using ToolRole = std::pair<int, Role>;
+
+/// Filament of the part, mm.
+inline std::map<ToolRole, double> part_filament(const GcodePrint& print) {
+  std::map<ToolRole, double> sums;
+  for (std::size_t i = 0; i < print.moves.size(); ++i)
+    if (lays_plastic(print, i) && !is_auxiliary(print.moves[i].role))
+      sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
+  return sums;
+}
+
+/// A road of the part, whichever way it is walked: tool, height, and both its ends, in micrometres.
+using RoadKey =
+    std::tuple<int, std::int64_t, std::pair<std::int64_t, std::int64_t>, std::pair<std::int64_t, std::int64_t>>;
+inline std::map<RoadKey, int> part_roads(const GcodePrint& print) {
+  std::map<RoadKey, int> roads;
+  const auto um = [](double mm) { return std::int64_t(std::llround(mm * 1e3)); };
+  for (std::size_t i = 1; i < print.moves.size(); ++i) {
+    if (!lays_plastic(print, i) || is_auxiliary(print.moves[i].role)) continue;
+    const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
+    std::pair from{um(a.x), um(a.y)}, to{um(b.x), um(b.y)};
+    if (to < from) std::swap(from, to);
+    ++roads[{print.moves[i].feeds, um(b.z), from, to}];
+  }
+  return roads;
+}
+inline double length_mm(const RoadKey& road) {
+  const auto& [tool, z, from, to] = road;
+  return std::hypot(double(to.first - from.first), double(to.second - from.second)) / 1000;
+}
+
+/// Of worst, as the audit counts.
+struct Cleanness {
+  double smear_mm3 = 0, hole_mm3 = 0, time_s = 0;
+};
+inline Cleanness cleanness(const std::string& text) {
+  const GcodePrint print = read_gcode(text, "print.gcode");
+  const AuditResult result = audit(print, audit_machine(print, {}));
+  return {result.scenarios.front().total.smear_volume(), result.scenarios.front().total.hole_volume,
+          result.print_time_s};
+}
+
+}  // namespace cleancolor::test
