@@ -227,7 +227,7 @@ void CommentReader::comment(std::string_view text) {
     case 'R':
       if (text == "REFILL_START") begin(refill, Role::refill);
       if (text == "REFILL_END") end(refill);
-      if (text == "RAMPART_WALL" || tagged("RAMPART_WALL:")) state_.role = Role::rampart;
+      if (text == "RAMPART_WALL") state_.role = Role::rampart;
       break;
     case 'f':
       if (tagged("feature ")) says(text, simplify3d_names);

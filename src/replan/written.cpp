@@ -305,7 +305,7 @@ class Writing {
         state[std::string(width_key)] = fmt::format(";WIDTH:{:.6g}", road.width_mm);
         state[std::string(height_key)] = fmt::format(";HEIGHT:{:.6g}", road.height_mm);
         out_.set(state);
-        if (i == 0) out_.line(refills ? ";REFILL_START" : fmt::format(";RAMPART_WALL:{}", path.extruder));
+        if (i == 0) out_.line(refills ? ";REFILL_START" : ";RAMPART_WALL");
       }
       const double mm = distance(line.points[i], line.points[i + 1]);
       asked_mm_[tool] += mm * road.area_mm2 * e.extrusion_multiplier / filament_mm2;
