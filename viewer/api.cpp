@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "audit/machine_texts.hpp"
@@ -35,8 +33,6 @@ bool reads(const Asked& asked) {
   return asked.method == "GET" || asked.method == "HEAD";
 }
 
-constexpr std::size_t most_printers = 64;  // of the user's own
-
 /// For a print, or for that of a job.
 ApiError no_room() {
   return {503, fmt::format("there is no room for another print ({} at most, with those of jobs to come); "
@@ -59,18 +55,6 @@ int id_of(std::string_view text) {
   return text.size() < 10 && parse_whole(text, id) && id > 0 ? id : 0;
 }
 
-bool is_built_in(const std::string& printer) {
-  return std::ranges::any_of(builtin_profiles(), [&](const BuiltInProfile& p) {
-    return p.group == OptionGroup::printer && p.name == printer;
-  });
-}
-
-/// That of the command line, where it is a file.
-OwnPrinters given_printer(const std::string& name) {
-  if (name.empty() || is_built_in(name)) return {};
-  return {{name, std::make_shared<StoredFile>(name, /*owned=*/false)}};
-}
-
 }  // namespace
 
 Answer refusal(int status, const std::string& message, const std::string& field) {
@@ -84,8 +68,8 @@ Answer refusal(int status, const std::string& message, const std::string& field)
 Api::Api(ApiOptions options)
     : options_(std::move(options)),
       option_table_(std::make_shared<const std::string>(options_json())),
-      printers_(given_printer(options_.printer)),
-      profile_table_(std::make_shared<const std::string>(profiles_json(options_.printer, printers_))),
+      printers_(options_.printer),
+      built_in_rows_(built_in_rows(options_.printer)),
       prints_(options_.threads, options_.most_kept_bytes),
       jobs_(prints_) {}
 
@@ -107,7 +91,8 @@ std::optional<BodyRule> Api::body_rule(const std::string& method, const std::str
   if (method != "POST") return std::nullopt;
   if (path == "/api/prints") return BodyRule{options_.most_gcode_bytes, true};
   if (path == "/api/meshes") return BodyRule{options_.most_mesh_bytes, true};
-  if (path == "/api/jobs" || path == "/api/profiles") return BodyRule{options_.most_json_bytes, false};
+  if (path == "/api/jobs") return BodyRule{options_.most_json_bytes, false};
+  if (path == "/api/profiles") return BodyRule{options_.most_profile_bytes, false};
   return std::nullopt;
 }
 
@@ -175,9 +160,9 @@ MachineRequest Api::machine_of(const Query& query) const {
   };
   take("printer", [&](const std::string& name) {
     if (name == options_.printer) return;
-    const OwnPrinters own = own_printers();
-    if (!is_built_in(name) && !own.contains(name)) throw Error(fmt::format("printer: there is no '{}'", name));
-    machine.printer = config_of({.printer = printer_named(name, own)});
+    const OwnPrinterHandle own = printers_.find(name);
+    if (!own && !is_built_in(OptionGroup::printer, name)) throw Error(fmt::format("printer: there is no '{}'", name));
+    machine.printer = own ? config_of(own->profile, {}) : config_of({.printer = name});
     machine.nozzle_offset_mm = {};
   });
   take("nozzle_offset",
@@ -254,58 +239,26 @@ Answer Api::mesh(const Asked& asked, int id) {
   return json_answer(Json::object());
 }
 
-/// Also keeps the files while they are used.
-OwnPrinters Api::own_printers() const {
-  const std::lock_guard lock(mutex_);
-  return printers_;
-}
-
-/// In place of one of the same name that was sent before.
-void Api::keep_printer(const std::string& name, const std::string& toml) {
-  if (name == options_.printer)
-    throw ApiError(400, fmt::format("{}: --printer names this one already; give the file another name", name),
-                   "printer");
-  try {
-    check_printer(toml, name);
-  } catch (const Error& e) {
-    throw ApiError(400, e.what(), "printer");
-  }
-  const FileHandle file = folder_.new_file(name);
-  std::ofstream out(file->path(), std::ios::binary);
-  out << toml;
-  out.close();
-  if (!out) throw SystemError("the profile cannot be kept: is the disc full?");
-  const std::lock_guard lock(mutex_);
-  if (printers_.size() >= most_printers && !printers_.contains(name))
-    throw ApiError(503, fmt::format("there are {} printers already; forget one", most_printers));
-  OwnPrinters printers = printers_;
-  printers[name] = file;
-  profile_table_ = std::make_shared<const std::string>(profiles_json(options_.printer, printers));
-  printers_ = std::move(printers);
-}
-
 Answer Api::profiles(const Asked& asked) {
   if (reads(asked)) {
-    const std::lock_guard lock(mutex_);
-    return {.body = profile_table_};
+    std::string rows = "[";
+    for (const OwnPrinterHandle& printer : printers_.all()) rows += printer->row + ",";
+    return {.body = std::make_shared<const std::string>(rows + built_in_rows_ + "]")};
   }
   if (asked.method != "POST") return method_not_allowed("GET, POST");
   const std::string name = file_name(text_of(asked.query, "name"));
-  keep_printer(name, asked.body);
+  printers_.keep(name, asked.body);
   return json_answer({{"name", name}});
 }
 
 Answer Api::profile(const Asked& asked, const std::string& name) {
   if (asked.method != "DELETE") return method_not_allowed("DELETE");
-  const std::lock_guard lock(mutex_);
-  if (name == options_.printer || printers_.erase(name) == 0)
-    throw ApiError(404, fmt::format("no printer '{}' was sent here", name));
-  profile_table_ = std::make_shared<const std::string>(profiles_json(options_.printer, printers_));
+  if (!printers_.forget(name)) throw ApiError(404, fmt::format("no printer '{}' was sent here", name));
   return json_answer(Json::object());
 }
 
 Job Api::new_job(const std::string& body) {
-  const JobRequest asked = job_request(body, own_printers());
+  const JobRequest asked = job_request(body, printers_);
   Job job;
   {
     const std::lock_guard lock(mutex_);

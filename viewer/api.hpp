@@ -28,6 +28,7 @@ struct ApiOptions {
   std::uint64_t most_gcode_bytes = 1'000'000'000;
   std::uint64_t most_mesh_bytes = 256'000'000;
   std::uint64_t most_json_bytes = 1'000'000;
+  std::uint64_t most_profile_bytes = 64'000;
   std::size_t most_kept_bytes = 4'000'000'000;  // of prints, ready to be sent
 };
 
@@ -96,16 +97,14 @@ class Api {
   Answer page(const Asked& asked) const;
   MachineRequest machine_of(const Query& query) const;
   int keep_mesh(Mesh mesh);
-  void keep_printer(const std::string& name, const std::string& toml);
-  OwnPrinters own_printers() const;
   Job new_job(const std::string& body);
 
   ApiOptions options_;
   Bytes option_table_;
+  OwnPrinters printers_;
+  std::string built_in_rows_;  // of the list of profiles
   TempFolder folder_;
-  mutable std::mutex mutex_;
-  OwnPrinters printers_;  // guarded, as is their table
-  Bytes profile_table_;
+  std::mutex mutex_;
   std::map<int, Mesh> meshes_;  // guarded
   int last_mesh_ = 0;
   PrintStore prints_;

@@ -78,10 +78,8 @@ std::vector<std::string> texts_at(const Json& json, const char* name) {
 }
 
 void require_profile(const std::string& name, OptionGroup group, const char* field) {
-  if (name.empty()) return;
-  for (const BuiltInProfile& p : builtin_profiles())
-    if (p.group == group && p.name == name) return;
-  throw wrong(fmt::format("there is no {} '{}'", group_name(group), name), field);
+  if (!name.empty() && !is_built_in(group, name))
+    throw wrong(fmt::format("there is no {} '{}'", group_name(group), name), field);
 }
 
 /// The option of which a message speaks first; "" where it speaks of none.
@@ -120,16 +118,17 @@ void apply_settings(Config& config, const Json& json) {
 
 Config config_at(const Json& json, const OwnPrinters& own, const ProtectionLevel& protection) {
   const std::string printer = text_at(json, "printer");
-  const Settings settings{.printer = printer_named(printer, own),
+  const OwnPrinterHandle own_printer = own.find(printer);
+  const Settings settings{.printer = printer,
                           .materials = texts_at(json, "materials"),
                           .print = text_at(json, "print"),
                           .set = protection.set};
-  if (!own.contains(printer)) require_profile(printer, OptionGroup::printer, "printer");
+  if (!own_printer) require_profile(printer, OptionGroup::printer, "printer");
   require_profile(settings.print, OptionGroup::print, "print");
   for (const std::string& m : settings.materials) require_profile(m, OptionGroup::material, "materials");
   Config config;
   try {
-    config = config_of(settings);
+    config = own_printer ? config_of(own_printer->profile, settings) : config_of(settings);
   } catch (const Error& e) {  // the profiles are sound, so only their number can be at fault
     throw wrong(e.what(), settings.materials.size() > 1 ? "materials" : "printer");
   }

@@ -1,10 +1,13 @@
 #include "viewer/option_json.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "model/options.hpp"
-#include "model/profile.hpp"
 #include "model/settings.hpp"
 
 namespace cleancolor {
@@ -61,7 +64,7 @@ Json option_json(const Option& option) {
           {"default", option_text(Config{}, option.name)}};
 }
 
-Json profile_json(const Profile& profile, bool chosen) {
+Json profile_json(const Profile& profile, PrinterRow row = {}) {
   const Config config = with_profile(Config{}, profile);
   Json settings = Json::object();
   for (const ProfileSetting& s : profile.settings)
@@ -72,7 +75,8 @@ Json profile_json(const Profile& profile, bool chosen) {
     json["default_material"] = profile.default_material;
     json["default_print"] = profile.default_print;
     json["audit_only"] = config.audit_only;
-    json["chosen"] = chosen;
+    json["chosen"] = row.chosen;
+    json["sent"] = row.sent;
   }
   json["settings"] = settings;
   return json;
@@ -101,18 +105,17 @@ std::string options_json() {
   return text(all);
 }
 
-std::string profiles_json(const std::string& chosen, const OwnPrinters& own) {
-  Json all = Json::array();
-  for (const auto& [name, file] : own) {
-    Profile printer = find_profile(OptionGroup::printer, printer_named(name, own));
-    printer.name = name;  // by which jobs name it
-    all.push_back(profile_json(printer, name == chosen));
-  }
+std::string printer_row(const Profile& printer, PrinterRow row) {
+  return text(profile_json(printer, row));
+}
+
+std::string built_in_rows(const std::string& chosen) {
+  std::vector<std::string> rows;
   for (const BuiltInProfile& p : builtin_profiles())
-    all.push_back(
-        profile_json(find_profile(p.group, std::string(p.name)), p.group == OptionGroup::printer && p.name == chosen));
-  for (const char* word : {"none", "rampart", "full"}) all.push_back(protection_json(word));
-  return text(all);
+    rows.push_back(text(profile_json(find_profile(p.group, std::string(p.name)),
+                                     {.chosen = p.group == OptionGroup::printer && p.name == chosen})));
+  for (const char* word : {"none", "rampart", "full"}) rows.push_back(text(protection_json(word)));
+  return fmt::format("{}", fmt::join(rows, ","));
 }
 
 }  // namespace cleancolor

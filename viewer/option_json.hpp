@@ -5,15 +5,24 @@
 
 #include <string>
 
-#include "viewer/own_printers.hpp"
+#include "model/profile.hpp"
 
 namespace cleancolor {
 
 /// All options, in the order of the reference.
 std::string options_json();
 
-/// The built-in profiles, after the user's own printers; the one named `chosen`, own or built-in, is marked so.  Throws
-/// Error where one cannot be read.
-std::string profiles_json(const std::string& chosen, const OwnPrinters& own = {});
+/// How the user came to a printer.
+struct PrinterRow {
+  bool chosen = false;  // named by --printer
+  bool sent = false;    // to the program, which can forget it
+};
+
+/// An object of the list of profiles. Throws Error as with_profile does.
+std::string printer_row(const Profile& printer, PrinterRow row);
+
+/// The objects of all built-in profiles and of what protects, with commas between them; the printer named `chosen` is
+/// marked so.
+std::string built_in_rows(const std::string& chosen);
 
 }  // namespace cleancolor

@@ -203,6 +203,11 @@ Profile find(OptionGroup group, const std::string& name_or_file, const std::stri
 
 }  // namespace
 
+bool is_built_in(OptionGroup group, std::string_view name) {
+  return std::ranges::any_of(builtin_profiles(),
+                             [&](const BuiltInProfile& p) { return p.group == group && p.name == name; });
+}
+
 Profile find_profile(OptionGroup group, const std::string& name_or_file) {
   return find(group, name_or_file, "", 0);
 }

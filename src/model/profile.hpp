@@ -47,6 +47,8 @@ struct BuiltInProfile {
 /// By group, then by name. Names differ also between groups.
 std::span<const BuiltInProfile> builtin_profiles();
 
+bool is_built_in(OptionGroup group, std::string_view name);
+
 /// A built-in profile by its name, or a file by its path, which ends in ".toml" or contains a "/".
 ///
 /// Throws Error for an unknown name (and lists the known ones), and as read_profile does.

@@ -28,17 +28,16 @@ Config with_materials(Config config, const std::vector<std::string>& materials) 
   return config;
 }
 
-Config with_profiles(const Settings& settings) {
+/// printer: nullptr where none is named beside a loaded file.
+Config with_profiles(const Profile* printer, const Settings& settings) {
   Config config;
   std::vector<std::string> materials = settings.materials;
   std::string print = settings.print;
   const bool loads = !settings.load.empty();
-  const std::string printer = settings.printer.empty() && !loads ? "generic" : settings.printer;
-  if (!printer.empty()) {
-    const Profile profile = find_profile(OptionGroup::printer, printer);
-    config = with_profile(std::move(config), profile);
-    if (materials.empty() && !loads && !profile.default_material.empty()) materials = {profile.default_material};
-    if (print.empty() && !loads) print = profile.default_print;
+  if (printer) {
+    config = with_profile(std::move(config), *printer);
+    if (materials.empty() && !loads && !printer->default_material.empty()) materials = {printer->default_material};
+    if (print.empty() && !loads) print = printer->default_print;
   }
   // A loaded file may have more extruders than are known of so far.
   if (loads && materials.size() > config.extruders.size() && materials.size() <= max_extruders) {
@@ -57,6 +56,21 @@ Config with_loaded(Config config, const std::filesystem::path& file, const Progr
                               fmt::join(result.ignored, ", ")));
   }
   return std::move(result.config);
+}
+
+Config with_options(Config config, const Settings& settings, const Progress& progress) {
+  if (!settings.load.empty()) config = with_loaded(std::move(config), settings.load, progress);
+  for (const std::string& assignment : settings.set) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == assignment.npos) {
+      throw Error(fmt::format("--set {}: expected name=value, such as --set layer_height=0.2", assignment));
+    }
+    std::string name = assignment.substr(0, equals);
+    name.erase(name.find_last_not_of(' ') + 1);
+    set_option(config, name, assignment.substr(equals + 1), "--set ");
+  }
+  validate(config);
+  return config;
 }
 
 }  // namespace
@@ -78,19 +92,14 @@ std::optional<double> azimuth_deg(std::string_view word, std::string_view name) 
 }
 
 Config config_of(const Settings& settings, const Progress& progress) {
-  Config config = with_profiles(settings);
-  if (!settings.load.empty()) config = with_loaded(std::move(config), settings.load, progress);
-  for (const std::string& assignment : settings.set) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == assignment.npos) {
-      throw Error(fmt::format("--set {}: expected name=value, such as --set layer_height=0.2", assignment));
-    }
-    std::string name = assignment.substr(0, equals);
-    name.erase(name.find_last_not_of(' ') + 1);
-    set_option(config, name, assignment.substr(equals + 1), "--set ");
-  }
-  validate(config);
-  return config;
+  if (settings.printer.empty() && !settings.load.empty())  // which has one of its own
+    return with_options(with_profiles(nullptr, settings), settings, progress);
+  const std::string printer = settings.printer.empty() ? "generic" : settings.printer;
+  return config_of(find_profile(OptionGroup::printer, printer), settings, progress);
+}
+
+Config config_of(const Profile& printer, const Settings& settings, const Progress& progress) {
+  return with_options(with_profiles(&printer, settings), settings, progress);
 }
 
 }  // namespace cleancolor

@@ -19,6 +19,8 @@
 
 namespace cleancolor {
 
+struct Profile;
+
 struct Settings {
   std::string printer = {};                 // name or file; "": see above
   std::vector<std::string> materials = {};  // one per extruder; the last also holds for all that follow
@@ -43,5 +45,8 @@ std::optional<double> azimuth_deg(std::string_view word, std::string_view name =
 /// Throws Error where a profile, file or option cannot be used, or where the options do not go together. Warns of what
 /// a loaded file contains and we ignore.
 Config config_of(const Settings& settings, const Progress& progress = {});
+
+/// The same for a printer whose profile has been read, in place of settings.printer.
+Config config_of(const Profile& printer, const Settings& settings, const Progress& progress = {});
 
 }  // namespace cleancolor

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "model/options.hpp"
+#include "model/profile.hpp"
 #include "support_errors.hpp"
 
 namespace cleancolor {
@@ -33,6 +35,18 @@ TEST(Settings, TakeThePrintersMaterialAndPrintWhereNoneIsNamed) {
   EXPECT_EQ(c.extruders[1].filament_type, "ABS");
   EXPECT_EQ(c.layer_height_mm, 0.3);
   EXPECT_EQ(config_of({.printer = "replicator-dual", .materials = {"pla"}}).extruders[1].filament_type, "PLA");
+}
+
+TEST(Settings, AreThoseOfAPrinterThatWasReadBeforeAsOfOneThatIsNamed) {
+  const Profile printer = find_profile(OptionGroup::printer, "replicator-dual");
+  for (Settings s : {Settings{}, Settings{.materials = {"pla", "petg"}}, Settings{.print = "fine"},
+                     Settings{.set = {"layer_height=0.15"}}}) {
+    const Config read = config_of(printer, s);
+    s.printer = "replicator-dual";
+    const Config named = config_of(s);
+    for (const Option& option : options())
+      EXPECT_EQ(option_text(read, option.name), option_text(named, option.name)) << option.name;
+  }
 }
 
 TEST(Settings, TakeTheGenericPrinterWhereNoneIsNamed) {

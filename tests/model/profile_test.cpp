@@ -219,5 +219,12 @@ TEST(ProfileToml, KeepsEveryCharacterOfGcode) {
   EXPECT_EQ(again.end_gcode, config.end_gcode);
 }
 
+TEST(BuiltInProfiles, AreKnownByGroupAndName) {
+  EXPECT_TRUE(is_built_in(OptionGroup::printer, "replicator-dual"));
+  EXPECT_TRUE(is_built_in(OptionGroup::material, "pla"));
+  for (const char* name : {"", "pla", "replicator", "replicator-dual.toml", "./replicator-dual"})
+    EXPECT_FALSE(is_built_in(OptionGroup::printer, name)) << name;
+}
+
 }  // namespace
 }  // namespace cleancolor

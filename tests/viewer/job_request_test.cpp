@@ -103,7 +103,7 @@ TEST(JobRequest, NamesNoFilesButThePrinterOfTheCommandLine) {
       folder.file("own.toml", "inherits = \"replicator-dual\"\nbed_shape = [[0,0],[99,0],[99,99]]\n");
   const std::string body = R"({"meshes": [{"id": 1}], "printer": ")" + file + "\"}";
   EXPECT_EQ(refused(body).substr(0, 8), "printer:");
-  EXPECT_EQ(job_request(body, {{file, std::make_shared<StoredFile>(file, false)}}).config.bed_shape_mm.size(), 3u);
+  EXPECT_EQ(job_request(body, OwnPrinters(file)).config.bed_shape_mm.size(), 3u);
   EXPECT_EQ(refused(R"({"meshes": [{"id": 1}], "print": "/etc/passwd"})").substr(0, 6), "print:");
   EXPECT_EQ(refused(R"({"meshes": [{"id": 1}], "materials": ["./a.toml"]})").substr(0, 10), "materials:");
 }
@@ -118,52 +118,6 @@ TEST(OptionTable, HasWhatAFormNeeds) {
   ASSERT_NE(found, table.end());
   EXPECT_EQ(found->at("default"), "0.3");
   EXPECT_EQ(found->at("unit"), "mm");
-}
-
-TEST(ProfileTable, ListsTheUsersOwnPrintersFirst) {
-  const auto plain = nlohmann::json::parse(profiles_json(""));
-  const auto chosen = nlohmann::json::parse(profiles_json("replicator-dual"));
-  EXPECT_EQ(plain.size(), chosen.size());
-  for (const auto& p : chosen) EXPECT_EQ(p.value("chosen", false), p.at("name") == "replicator-dual");
-  const TestFolder folder;
-  const std::string file = folder.file(
-      "own.toml", "description = \"mine\"\ninherits = \"replicator-dual\"\nbed_shape = [[0,0],[99,0],[99,99]]\n");
-  const auto stored = std::make_shared<StoredFile>(file, false);
-  const auto own = nlohmann::json::parse(profiles_json(file, {{file, stored}, {"sent.toml", stored}}));
-  EXPECT_EQ(own.size(), plain.size() + 2);
-  EXPECT_EQ(own[0].at("name"), file);
-  EXPECT_EQ(own[0].at("chosen"), true);
-  EXPECT_EQ(own[0].at("extruders"), 2);
-  EXPECT_EQ(own[0].at("settings").at("bed_shape"), "0x0,99x0,99x99");
-  EXPECT_EQ(own[1].at("name"), "sent.toml");
-  EXPECT_EQ(own[1].at("chosen"), false);
-}
-
-/// What is wrong with a profile sent as my.toml.
-std::string fault(const std::string& toml) {
-  return error_of([&] { check_printer(toml, "my.toml"); });
-}
-
-TEST(OwnPrinter, IsToldInWordsWhatIsWrongWithIt) {
-  EXPECT_EQ(fault("inherits = \"replicator-dual\"\nbed_shape = [[0,0],[99,0],[99,99]]\n"), "no error");
-  EXPECT_EQ(fault("# mine\nnozle_diameter = [0.4]\n").substr(0, 31), "my.toml:2: there is no option '");
-  EXPECT_EQ(fault("nozzle_diameter = [[0.4\n").substr(0, 8), "my.toml:");
-  EXPECT_EQ(fault("\n\nlayer_height = 0.2\n").substr(0, 11), "my.toml:3: ");
-  EXPECT_EQ(fault("bed_shape = [[0,0],[99,0]]\n").substr(0, 9), "my.toml: ");
-  EXPECT_EQ(fault("description = \"nothing\"\n"), "my.toml: no option of a printer is in it");
-  EXPECT_EQ(error_of([] { check_printer("nozzle_diameter = 0.4\n", "my.txt"); }).substr(0, 7), "my.txt:");
-}
-
-TEST(OwnPrinter, HasNoOtherFilesRead) {
-  const TestFolder folder;
-  const std::string file = folder.file("base.toml", "nozzle_diameter = [0.4, 0.4]\n");
-  for (const std::string& name : {file, std::string("base.toml"), std::string("../base.toml")}) {
-    EXPECT_EQ(fault("nozzle_diameter = 0.4\ninherits = \"" + name + "\"\n").substr(0, 21), "my.toml:2: inherits: ");
-    EXPECT_EQ(fault("nozzle_diameter = 0.4\ndefault_print = \"" + name + "\"\n").substr(0, 24),
-              "my.toml: default_print: ");
-    EXPECT_EQ(fault("nozzle_diameter = 0.4\ndefault_material = \"" + name + "\"\n").substr(0, 27),
-              "my.toml: default_material: ");
-  }
 }
 
 }  // namespace

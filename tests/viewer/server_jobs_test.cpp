@@ -145,8 +145,42 @@ TEST_F(ViewerJobs, SayWhatIsWrongWithAPrinterThatWasSent) {
   EXPECT_EQ(error.at("field"), "printer");
   EXPECT_EQ(error.at("message").get<std::string>().substr(0, 31), "my.toml:1: there is no option '");
   EXPECT_EQ(post("/api/profiles?name=my.stl", "nozzle_diameter = 0.4\n", 400).at("error").at("field"), "printer");
-  post("/api/profiles?name=my.toml", std::string(3000, '#'), 413);
   for (const json& profile : get("/api/profiles")) EXPECT_NE(profile.at("name"), "my.toml");
+}
+
+TEST_F(ViewerJobs, TakePrintersUpToALength) {
+  std::string toml = "inherits = \"replicator-dual\"\nbed_shape = [[0,0],[99,0],[99,99]]\n";
+  toml.append(64'000 - toml.size(), '#');
+  EXPECT_EQ(post("/api/profiles?name=my.toml", toml).at("name"), "my.toml");
+  post("/api/profiles?name=more.toml", toml + "#", 413);
+  EXPECT_EQ(get("/api/profiles").at(0).at("name"), "my.toml");
+  remove("/api/profiles/..%2fmy.toml", 404);
+  remove("/api/profiles/%2e%2e/profiles/my.toml", 404);
+  EXPECT_EQ(get("/api/profiles").at(0).at("sent"), true);
+}
+
+TEST_F(ViewerJobs, TellHowProfilesCanBeAskedFor) {
+  const auto put = client_.Put("/api/profiles", "x", "text/plain");
+  EXPECT_EQ(put->status, 405);
+  EXPECT_EQ(put->get_header_value("Allow"), "GET, POST");
+  const auto removed = client_.Delete("/api/profiles");
+  EXPECT_EQ(removed->status, 405);
+  EXPECT_EQ(removed->get_header_value("Allow"), "GET, POST");
+  const auto one = client_.Get("/api/profiles/my.toml");
+  EXPECT_EQ(one->status, 405);
+  EXPECT_EQ(one->get_header_value("Allow"), "DELETE");
+}
+
+TEST_F(ViewerJobs, KeepPrintersFromWhoeverHasNoToken) {
+  httplib::Client stranger("127.0.0.1", server_.access().port);
+  for (const httplib::Headers& headers :
+       {httplib::Headers{}, httplib::Headers{{"Authorization", "Bearer " + std::string(32, '0')}}}) {
+    EXPECT_EQ(stranger.Get("/api/profiles", headers)->status, 401);
+    EXPECT_EQ(stranger.Post("/api/profiles?name=my.toml", headers, "nozzle_diameter = 0.4\n", "text/plain")->status,
+              401);
+    EXPECT_EQ(stranger.Delete("/api/profiles/my.toml", headers)->status, 401);
+  }
+  EXPECT_EQ(get("/api/profiles").at(0).at("sent"), false);
 }
 
 TEST_F(ViewerJobs, SayWhichFieldIsAtFault) {
