@@ -57,3 +57,19 @@ export function vase(moves, layers = 500) {
   }
   return w.text();
 }
+
+/** A plate of one colour whose layers are zigzags of short roads, so many each: none can be joined to the next. */
+export function plate(roads, layers = 3) {
+  const w = writer("0x0,33x0"), rows = 300, per_row = Math.ceil(roads / rows), step = 90 / per_row;
+  for (let layer = 0; layer < layers; layer++) {
+    w.layer(0.2 * (layer + 1), 0.2);
+    w.tool(0);
+    w.role("Solid infill");
+    for (let row = 0, left = roads; row < rows; row++) {
+      const y = 10 + 0.4 * row;
+      w.travel(10, y);
+      for (let k = 1; k <= per_row && left > 0; k++, left--) w.road(10 + step * k, y + (k % 2 ? 0.15 : 0));
+    }
+  }
+  return w.text();
+}

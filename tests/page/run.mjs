@@ -2,7 +2,8 @@
 import { execFileSync } from "node:child_process";
 import { existsSync, statSync, writeFileSync } from "node:fs";
 import path from "node:path";
-import { two_blocks, vase } from "./gcode.mjs";
+import { plate, two_blocks, vase } from "./gcode.mjs";
+import { dense, plate_roads } from "./dense.mjs";
 import { browser, out, program, root, serve, summary } from "./harness.mjs";
 import { known_picture } from "./known_picture.mjs";
 import { opening } from "./opening.mjs";
@@ -29,6 +30,7 @@ for (const [name, protect] of [["protected.gcode", "full"], ["bare.gcode", "none
 written("blocks.gcode", two_blocks);
 written("ten-megabytes.gcode", () => vase(330000));
 written("two-million.gcode", () => vase(2000000));
+written("plate.gcode", () => plate(plate_roads));
 writeFileSync(file("bad.gcode"), "; a file without a move\n");
 
 const chrome = await browser();
@@ -36,7 +38,7 @@ const only = process.argv[2];
 const groups = [
   ["viewing", [file("protected.gcode"), file("bare.gcode")], viewing], ["troubled", [file("blocks.gcode"), file("bad.gcode")], troubled],
   ["known", [file("blocks.gcode")], known_picture], ["opening", [], opening], ["slicing", [], slicing],
-  ["report", [file("protected.gcode")], report], ["first", null, first_picture(file("ten-megabytes.gcode"))], ["speed", [file("two-million.gcode")], two_million],
+  ["dense", [file("plate.gcode")], dense], ["report", [file("protected.gcode")], report], ["first", null, first_picture(file("ten-megabytes.gcode"))], ["speed", [file("two-million.gcode")], two_million],
 ];
 try {
   for (const [name, files, tests] of groups) {

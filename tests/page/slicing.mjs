@@ -46,6 +46,42 @@ export async function slicing(chrome, address) {
     await page.selectOption("#printer", before);
   });
 
+  await test("what is wrong with several printers is told together at the printer, and goes with the next that is sound", async () => {
+    const before = await page.locator("#printer").inputValue();
+    const sent = (name, toml) => ({ name, mimeType: "application/toml", buffer: Buffer.from(toml) });
+    const error = page.locator("#printer-error"), own = () => page.locator("#own-printers .name").allTextContents();
+    const sound = 'inherits = "generic"\nnozzle_diameter = [0.4, 0.4]\nnozzle_offset = [[0, 0], [20, 0]]\n';
+    await page.setInputFiles("#file", [sent("broken.toml", "nozle_diameter = [0.4]\n"), sent("big.toml", "# " + "x".repeat(1100000)), sent("two.toml", sound), sent("auditor.toml", `audit_only = true\n${sound}`)]);
+    await error.waitFor({ state: "visible" });
+    const lines = (await error.textContent()).split("\n");
+    assert.equal(lines.length, 3, lines.join("|"));
+    assert.match(lines[0], /^broken\.toml:1: /);
+    assert.match(lines[1], /^big\.toml: /);
+    assert.match(lines[2], /^auditor\.toml: .*only to audit/);
+    assert.ok(!(await page.locator("#slice-error").isVisible()));
+    assert.equal(await page.locator("#printer").inputValue(), "two.toml");
+    const known = async () => (await (await page.request.get(new URL("/api/profiles", address).href)).json()).filter((p) => p.name.endsWith(".toml")).map((p) => p.name);
+    assert.deepEqual((await known()).sort(), ["three.toml", "two.toml"], "what cannot be used takes no place");
+    await picture(page, "printers-error");
+
+    await page.route("**/api/profiles?name=*", (route) => route.fulfill({ status: 503, json: { error: { message: "there are 64 printers already; forget one" } } }));
+    await page.setInputFiles("#file", [sent("more.toml", sound)]);
+    await page.waitForFunction(() => document.getElementById("printer-error").textContent === "more.toml: there are 64 printers already; forget one");
+    await page.unroute("**/api/profiles?name=*");
+
+    assert.deepEqual((await own()).sort(), ["three.toml", "two.toml"]);
+    await page.getByRole("button", { name: "Remove two.toml" }).click();
+    await page.waitForFunction(() => document.querySelectorAll("#own-printers li").length === 1);
+    assert.ok(!(await error.isVisible()));
+    assert.equal(await page.locator("#printer").inputValue(), before, "another printer is chosen in its place");
+    assert.ok(await page.getByRole("button", { name: "Remove three.toml" }).evaluate((b) => b === document.activeElement));
+    await page.keyboard.press("Enter");
+    await page.locator("#own-printers").waitFor({ state: "hidden" });
+    assert.deepEqual(await known(), []);
+    assert.ok(await page.locator("#add-printer").evaluate((b) => b === document.activeElement));
+    assert.ok(!(await page.locator("#printer option").allTextContents()).some((name) => name.endsWith(".toml")));
+  });
+
   await test("a value out of range is told in words at its field", async () => {
     await page.fill("#option-layer_height", "99");
     await page.keyboard.press("Tab");
@@ -123,8 +159,8 @@ export async function slicing(chrome, address) {
     const [file] = await Promise.all([page.waitForEvent("download"), page.click('#jobs li[data-job="3"] a')]);
     assert.match(file.suggestedFilename(), /\.gcode$/);
     await picture(page, "sliced");
-    // The 400 of values out of range are the only complaints there are.
-    assert.deepEqual(page.troubles.filter((t) => !/status of 400/.test(t)), []);
+    // What was refused above are the only complaints there are.
+    assert.deepEqual(page.troubles.filter((t) => !/status of (400|413|503)/.test(t)), []);
   });
 
   await test("with a print forgotten goes the job that made it; another job's row can be forgotten by itself", async () => {

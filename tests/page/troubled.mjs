@@ -35,6 +35,23 @@ export async function troubled(chrome, address) {
     await page.context().close();
   });
 
+  await test("one print that fails as another comes is noticed, and that the program once does not answer", async () => {
+    let asked = 0, others = null;
+    const page = await open_page(chrome, address, {}, (page) => page.route("**/api/prints", async (route) => {
+      asked++;
+      if (others && others.failing-- > 0) { await route.abort(); return; }
+      const rows = (await (await route.fetch()).json()).filter((row) => row.name === "blocks.gcode");
+      await route.fulfill({ json: [...rows, ...(others ? others.rows : [{ id: 77, name: "late.gcode", state: "reading" }])] });
+    }));
+    await audited(page);
+    assert.deepEqual(await page.locator("#print option").allTextContents(), ["blocks.gcode", "late.gcode"]);
+    others = { failing: 2, rows: [{ id: 77, name: "late.gcode", state: "failed", error: "no move in it" }, { id: 78, name: "new.gcode", state: "drawn" }] };
+    await page.waitForFunction(() => [...document.querySelectorAll("#print option")].map((o) => o.textContent).join() === "blocks.gcode,new.gcode");
+    assert.match(await page.locator("#unread li span").textContent(), /^late\.gcode: no move in it/);
+    assert.ok(asked >= 4);
+    await page.context().close();
+  });
+
   await test("a print that fails only in the audit is shown without it", async () => {
     const failed = { state: "failed", error: "out of memory" };
     const page = await open_page(chrome, address, {}, async (page) => {

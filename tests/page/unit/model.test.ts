@@ -2,12 +2,14 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { unpack } from "../../../viewer/page/src/data/arrays.ts";
 import { by_layer, flag, type Summary } from "../../../viewer/page/src/data/print.ts";
+import { chunk_roads, road_material, RoadChunk, RoadSet } from "../../../viewer/page/src/draw/roads_mesh.ts";
+import { curve_of } from "../../../viewer/page/src/model/azimuth.ts";
 import { colourings, KeyByte, laid_of, painted, painted_places, road_keys, type Palette } from "../../../viewer/page/src/model/colouring.ts";
 import { after_move, carriage_at, later, layer_at, steps_of, time_at } from "../../../viewer/page/src/model/moment.ts";
 import { Ooze } from "../../../viewer/page/src/model/ooze.ts";
 import { css, heat, mix, nozzle_colours, parse_colour, rgba, viridis } from "../../../viewer/page/src/model/palette.ts";
 import { add_layer, level_roads, levels, RoadBuffer } from "../../../viewer/page/src/model/roads.ts";
-import { found, job_request, kind_of_file, standing_azimuth, standing_value, with_printer, type Choice } from "../../../viewer/page/src/model/slicing.ts";
+import { found, job_request, kind_of_file, standing_azimuth, standing_value, was_sent, with_printer, type Choice } from "../../../viewer/page/src/model/slicing.ts";
 import { audit_with, moves_from, type Line } from "./prints.ts";
 
 const all = () => true;
@@ -199,4 +201,37 @@ test("places are coloured by how much of them is to be seen, or as the plastic t
   const colour = (colouring: "smear" | "look") => { const { palette, key } = painted_places(colouring, two_nozzles, audit); return looked_up(palette, key(0)); };
   assert.equal(colour("smear"), heat[128]);
   assert.equal(colour("look"), nozzle_colours(two_nozzles.nozzles.map((n) => n.colour))[1]);
+});
+
+test("roads beyond what a chunk holds go into further chunks, and all of them are drawn", () => {
+  const material = road_material(), n = 2 * chunk_roads + 500;
+  const buffer = new RoadBuffer(), from = [0, 0], to = new Float32Array(3);
+  for (let k = 0; k < n; k++) buffer.put(from, 0, to, 0, 40, 20, false, k);
+  const set = RoadSet.of(buffer, (move) => move, material);
+  /** Corners each chunk gives to the graphics card: not beyond its index, as three has it. */
+  const drawn = () => (set.group.children as RoadChunk["mesh"][]).map(({ visible, geometry: { drawRange, index } }) => (visible ? Math.min(drawRange.count, index!.count) / 12 : 0));
+  for (const [asked, each] of [[n, [chunk_roads, chunk_roads, 500]], [chunk_roads + 7, [chunk_roads, 7, 0]], [chunk_roads, [chunk_roads, 0, 0]], [3, [3, 0, 0]], [0, [0, 0, 0]]] as const) {
+    set.show(asked);
+    assert.deepEqual(drawn(), each);
+    assert.equal(set.shown, asked);
+  }
+  const last = set.group.children[2] as RoadChunk["mesh"];
+  assert.equal((last.material.uniforms as unknown as { keys: { value: { image: { data: Uint32Array } } } }).keys.value.image.data[499], n - 1);
+  assert.throws(() => new RoadChunk(buffer.words, buffer.move.subarray(0, chunk_roads + 1), () => 0, material), /do not fit/);
+  set.dispose();
+});
+
+test("the curve of the azimuth is broken where there is no room, as high as what is drawn, and goes round", () => {
+  const azimuth = { candidates_deg: [270, 0, 90, 180, 359, 45], exposure_s: [5, 1, 99, 3, 4, 2], interference_mm3: [], fits: [true, true, false, true, true, true], chosen_deg: 0 };
+  const curve = curve_of(azimuth, 359.8)!;
+  assert.deepEqual(curve.runs, [[1, 5], [3, 0, 4]]);
+  assert.deepEqual([curve.first_deg, curve.last_deg, curve.most_s], [0, 359, 5]);
+  assert.equal(curve.nearest, 1);
+  assert.equal(curve_of(azimuth, 100)!.nearest, 5);
+  assert.equal(curve_of({ ...azimuth, fits: azimuth.fits.map(() => false) }, 0), null);
+});
+
+test("printers that were sent can be told from those built in and that of the command line", () => {
+  const printer = (name: string, more = {}) => ({ group: "printer" as const, name, settings: {}, ...more });
+  assert.deepEqual([printer("mine.toml"), printer("bench.toml", { chosen: true }), printer("generic"), { ...printer("x.toml"), group: "print" as const }].map(was_sent), [true, false, false, false]);
 });

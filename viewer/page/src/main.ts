@@ -34,6 +34,7 @@ document.getElementById("page")!.append(
 function fill_prints(): void {
   const here = prints.filter(can_be_shown);
   first.replaceChildren(...here.map((p) => option(String(p.id), p.name, p.id === shown[0])));
+  first.selectedIndex = here.findIndex((p) => p.id === shown[0]);
   second.replaceChildren(option("", "compare with…", shown.length < 2), ...here.filter((p) => p.id !== shown[0]).map((p) => option(String(p.id), p.name, p.id === shown[1])));
   first.hidden = here.length === 0;
   second.hidden = here.length < 2;
@@ -45,19 +46,23 @@ function fill_prints(): void {
 }
 
 let watching = false;
+const most_misses = 5; // requests that fail one after the other until it gives up
+/** Which prints there are, and which can be shown. */
+const known = (all: PrintState[]) => all.map((p) => `${p.id} ${can_be_shown(p)}`).join();
 /** Asks again until all prints are read: some may turn out to be unreadable. */
 async function watch_prints(): Promise<void> {
   if (watching) return;
   watching = true;
-  try {
-    while (prints.some((p) => p.state === "reading")) {
-      await pause(400);
-      const before = prints, now = await api.prints();
-      if (prints !== before) continue; // somebody knows better
-      prints = now;
-      if (before.filter(can_be_shown).length !== now.filter(can_be_shown).length) fill_prints();
-    }
-  } catch { /* the program has ended; the next request says so */ } finally { watching = false; }
+  for (let misses = 0; misses < most_misses && prints.some((p) => p.state === "reading");) {
+    await pause(400 * 2 ** misses);
+    const before = prints, now = await api.prints().catch(() => null);
+    if (!now) { misses++; continue; } // if the program has ended, the next request says so
+    misses = 0;
+    if (prints !== before) continue; // somebody knows better
+    prints = now;
+    if (known(before) !== known(now)) fill_prints();
+  }
+  watching = false;
 }
 
 function fail(e: unknown): void { say(e instanceof Error ? e.message : String(e)); }
@@ -106,7 +111,7 @@ async function forget_shown(): Promise<void> {
 
 async function take({ gcode, mesh, printer, unknown }: Opened): Promise<void> {
   try {
-    for (const file of printer) { side.show("slice"); await slice_panel.add_printer(file); }
+    if (printer.length) { side.show("slice"); await slice_panel.add_printers(printer); }
     for (const file of mesh) {
       say(`uploading ${file.name}`, 0);
       const { id } = await api.add_mesh(file);

@@ -64,6 +64,7 @@ export const api = {
   options: () => json<Option[]>("/api/options"),
   profiles: () => json<Profile[]>("/api/profiles"),
   add_printer: (file: File) => json<{ name: string }>(`/api/profiles?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file }),
+  forget_printer: (name: string) => forget(`/api/profiles/${encodeURIComponent(name)}`),
   meshes: () => json<Mesh[]>("/api/meshes"),
   add_mesh: (file: File) => named("/api/meshes", file),
   forget_mesh: (id: number) => forget(`/api/meshes/${id}`),

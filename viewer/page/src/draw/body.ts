@@ -2,13 +2,13 @@
 // written to the graphics card once. Moving the layer slider then only changes how many pieces of each chunk are drawn.
 import * as THREE from "three";
 import type { Moves } from "../data/print.ts";
-import { drawn_layer, level_roads, levels, seen_from_outside, words_per_road, type Roads } from "../model/roads.ts";
+import { drawn_layer, level_roads, levels, seen_from_outside } from "../model/roads.ts";
 import { in_slices } from "../model/slices.ts";
-import { chunk_roads, RoadChunk, type RoadMaterial } from "./roads_mesh.ts";
+import { RoadSet, type RoadMaterial } from "./roads_mesh.ts";
 
 const finer_levels = 2; // and all below it show the steps of slopes
 type Upload = (mesh: THREE.Object3D) => Promise<void>;
-interface Built { chunks: RoadChunk[]; roads: Roads }
+interface Built { roads: RoadSet; layer_end: Uint32Array }
 
 export class Body {
   readonly group = new THREE.Group();
@@ -42,24 +42,21 @@ export class Body {
   }
 
   private *new_keys(): Generator<void, void> {
-    for (const b of this.built) for (const chunk of b?.chunks ?? []) { chunk.set_keys(this.key_of); yield; }
+    for (const b of this.built) if (b) yield* b.roads.new_keys(this.key_of);
   }
 
   private async build_levels(coarsest: number, upload: Upload, ready: () => void): Promise<void> {
     for (let n = coarsest; n >= 0; n--) {
-      const roads = await in_slices(level_roads(this.moves, levels[n]!, this.seen), () => this.disposed);
-      if (!roads) return;
-      const chunks: RoadChunk[] = [];
-      for (let k = 0; k < roads.count; k += chunk_roads) {
-        const end = Math.min(roads.count, k + chunk_roads);
-        const chunk = new RoadChunk(roads.words.subarray(words_per_road * k, words_per_road * end), roads.move.subarray(k, end), this.key_of, this.material);
-        chunks.push(chunk);
+      const found = await in_slices(level_roads(this.moves, levels[n]!, this.seen), () => this.disposed);
+      if (!found) return;
+      const roads = new RoadSet(found, this.material);
+      for (const chunk of roads.build(this.key_of)) {
         await upload(chunk.mesh);
-        if (this.disposed) { chunks.forEach((c) => c.dispose()); return; }
-        this.group.add(chunk.mesh);
+        if (this.disposed) { roads.dispose(); return; }
       }
-      this.built[n]?.chunks.forEach((c) => c.dispose());
-      this.built[n] = { chunks, roads };
+      this.group.add(roads.group);
+      this.built[n]?.roads.dispose();
+      this.built[n] = { roads, layer_end: found.layer_end };
       ready();
     }
   }
@@ -69,7 +66,7 @@ export class Body {
     let found = -1;
     for (let n = levels.length - 1; n >= level; n--) {
       const b = this.built[n];
-      if (b && (found < 0 || b.roads.layer_end[layer]! <= budget)) found = n;
+      if (b && (found < 0 || b.layer_end[layer]! <= budget)) found = n;
     }
     return found;
   }
@@ -78,8 +75,7 @@ export class Body {
   show(level: number, layer: number): number {
     this.built.forEach((b, n) => {
       if (!b) return;
-      const end = n === level && layer >= 0 ? b.roads.layer_end[layer]! : 0;
-      b.chunks.forEach((c, k) => c.show(Math.max(0, Math.min(c.move.length, end - k * chunk_roads))));
+      b.roads.show(n === level && layer >= 0 ? b.layer_end[layer]! : 0);
     });
     if (level < 0) return layer + 1;
     let first = layer + 1;
@@ -87,13 +83,13 @@ export class Body {
     return first;
   }
 
-  roads(level: number, layer: number): number { return level < 0 || layer < 0 ? 0 : (this.built[level]?.roads.layer_end[layer] ?? 0); }
+  roads(level: number, layer: number): number { return level < 0 || layer < 0 ? 0 : (this.built[level]?.layer_end[layer] ?? 0); }
   finished(): boolean { return this.pending === 0 && this.built.every((b) => b !== null); }
 
   /** Resolves when nothing is written to the graphics card any more. */
   dispose(): Promise<void> {
     this.disposed = true;
-    this.built.forEach((b) => b?.chunks.forEach((c) => c.dispose()));
+    this.built.forEach((b) => b?.roads.dispose());
     return this.work;
   }
 }

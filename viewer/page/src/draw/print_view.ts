@@ -3,11 +3,11 @@
 import * as THREE from "three";
 import { box_of, by_layer, kinds, type Audit, type Moves, type Summary } from "../data/print.ts";
 import { laid_of, painted, painted_places, places_of, road_keys, type Colouring, type Laid, type Legend } from "../model/colouring.ts";
-import { add_layer, levels, RoadBuffer, words_per_road } from "../model/roads.ts";
+import { add_layer, levels, RoadBuffer } from "../model/roads.ts";
 import { bed, dispose_bed } from "./bed.ts";
 import { Body } from "./body.ts";
 import { Idle } from "./idle.ts";
-import { dispose_palette, road_material, RoadChunk, set_palette } from "./roads_mesh.ts";
+import { dispose_palette, road_material, RoadSet, set_palette } from "./roads_mesh.ts";
 import type { Stage, View } from "./stage.ts";
 
 export interface Shown {
@@ -33,10 +33,10 @@ export class PrintView implements View {
   audit: Audit | null = null;
   private readonly body: Body;
   private readonly root = new THREE.Group();
-  private top: RoadChunk | null = null;
-  private under: RoadChunk | null = null;
-  private floor: RoadChunk | null = null;
-  private places: RoadChunk | null = null;
+  private top: RoadSet | null = null;
+  private under: RoadSet | null = null;
+  private floor: RoadSet | null = null;
+  private places: RoadSet | null = null;
   private places_by_layer: ReturnType<typeof by_layer> = { order: new Uint32Array(), layer_start: new Uint32Array() };
   private readonly place_end: Uint32Array; // of the places drawn, up to and including a layer
   private place_index: Uint32Array = new Uint32Array();
@@ -80,7 +80,7 @@ export class PrintView implements View {
     this.places_by_layer = by_layer(audit.places.layer, this.moves.layer_z.length);
     this.idle.set_audit(audit);
     this.key_of = road_keys(this.moves, this.laid, audit.visibility);
-    for (const c of [this.top, this.under, this.floor]) c?.set_keys(this.key_of);
+    for (const c of [this.top, this.under, this.floor]) if (c) for (const _ of c.new_keys(this.key_of));
     this.body.refine(audit.visibility, this.key_of, (mesh) => this.stage.upload(mesh), () => this.stage.ask());
     this.recolour();
   }
@@ -119,14 +119,14 @@ export class PrintView implements View {
     const left = this.body.show(level, layer - 1);
     this.fill_under(Math.max(this.shown.from_layer, left), level >= 0);
     if (level >= 0 && this.first_drawn) { const done = this.first_drawn; this.first_drawn = null; void this.stage.frame_done().then(done); }
-    const chunk_roads = (c: RoadChunk | null) => c?.shown ?? 0;
-    return this.body.roads(level, layer - 1) + chunk_roads(this.top) + chunk_roads(this.under) + chunk_roads(this.floor) + chunk_roads(this.places);
+    const shown = (c: RoadSet | null) => c?.shown ?? 0;
+    return this.body.roads(level, layer - 1) + shown(this.top) + shown(this.under) + shown(this.floor) + shown(this.places);
   }
 
   /** Pieces drawn of each kind, for tests. */
   counts(): Record<string, number> {
-    const chunk = (c: RoadChunk | null) => c?.shown ?? 0;
-    return { top: chunk(this.top), under: chunk(this.under), floor: chunk(this.floor), places_drawn: chunk(this.places), finished: this.body.finished() ? 1 : 0 };
+    const shown = (c: RoadSet | null) => c?.shown ?? 0;
+    return { top: shown(this.top), under: shown(this.under), floor: shown(this.floor), places_drawn: shown(this.places), finished: this.body.finished() ? 1 : 0 };
   }
 
   /** Places drawn, for tests. */
@@ -140,11 +140,10 @@ export class PrintView implements View {
     void this.body.dispose().then(() => { for (const m of [this.material, this.place_material]) { dispose_palette(m); m.dispose(); } });
   }
 
-  private chunk_of(buffer: RoadBuffer): RoadChunk {
-    const n = buffer.count;
-    const chunk = new RoadChunk(buffer.words.subarray(0, words_per_road * n), buffer.move.subarray(0, n), this.key_of, this.material);
-    this.root.add(chunk.mesh);
-    return chunk;
+  private roads_of(buffer: RoadBuffer): RoadSet {
+    const roads = RoadSet.of(buffer, this.key_of, this.material);
+    this.root.add(roads.group);
+    return roads;
   }
 
   /** The layer at the cut, and the lowest shown, in full. */
@@ -156,13 +155,13 @@ export class PrintView implements View {
     this.top?.dispose();
     const top = new RoadBuffer();
     add_layer(top, this.moves, layer, () => true, exact);
-    this.top = this.chunk_of(top);
+    this.top = this.roads_of(top);
     this.floor?.dispose();
     this.floor = null;
     if (from_layer > 0 && from_layer < layer) {
       const floor = new RoadBuffer();
       add_layer(floor, this.moves, from_layer, () => true, exact);
-      this.floor = this.chunk_of(floor);
+      this.floor = this.roads_of(floor);
       this.floor.show(floor.count);
     }
     this.under_key = "";
@@ -209,7 +208,7 @@ export class PrintView implements View {
     this.under?.dispose();
     const buffer = new RoadBuffer();
     for (let l = first; l < layer; l++) add_layer(buffer, this.moves, l, l >= full ? () => true : this.body.seen, l >= full ? exact : levels[1]!);
-    this.under = this.chunk_of(buffer);
+    this.under = this.roads_of(buffer);
     this.under.show(buffer.count);
   }
 
@@ -240,10 +239,9 @@ export class PrintView implements View {
       }
       this.place_end[l] = buffer.count;
     }
-    const n = buffer.count;
-    this.place_index = buffer.move.subarray(0, n);
-    this.places = new RoadChunk(buffer.words.subarray(0, words_per_road * n), this.place_index, key, this.place_material);
-    this.root.add(this.places.mesh);
+    this.places = RoadSet.of(buffer, key, this.place_material);
+    this.place_index = this.places.move;
+    this.root.add(this.places.group);
     this.show_step();
   }
 }

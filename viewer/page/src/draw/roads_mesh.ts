@@ -3,7 +3,7 @@
 // the number of the vertex: one copy of 32 bytes a road, and no instances, of which drawing in software is slow.
 import * as THREE from "three";
 import type { Palette } from "../model/colouring.ts";
-import { words_per_road } from "../model/roads.ts";
+import { words_per_road, type Roads } from "../model/roads.ts";
 
 const vertex = /* glsl */ `
   uniform highp usampler2D roads; uniform highp usampler2D keys; uniform lowp sampler2D palette; uniform int column; uniform int row;
@@ -95,6 +95,7 @@ export class RoadChunk {
 
   /** `move` tells what each road is of, `key_of` the key of that (model/colouring.ts). */
   constructor(words: Uint32Array, readonly move: Uint32Array, key_of: (move: number) => number, material: RoadMaterial) {
+    if (move.length > chunk_roads) throw new Error(`${move.length} roads do not fit into a chunk`); // three would leave the rest out
     const rows = Math.max(1, Math.ceil(move.length / texture_roads));
     const padded = new Uint32Array(words_per_road * texture_roads * rows);
     padded.set(words);
@@ -134,5 +135,55 @@ export class RoadChunk {
     this.mesh.material.dispose();
     this.road_texture.dispose();
     this.key_texture.dispose();
+  }
+}
+
+/** Roads, however many, in as many chunks as they need; `show` draws the first so many. */
+export class RoadSet {
+  readonly group = new THREE.Group();
+  readonly move: Uint32Array; // what each road is of
+  private readonly words: Uint32Array;
+  private readonly chunks: RoadChunk[] = [];
+  private wanted = 0;
+
+  constructor({ words, move, count }: Pick<Roads, "words" | "move" | "count">, private readonly material: RoadMaterial) {
+    this.words = words;
+    this.move = move.subarray(0, count);
+    this.group.matrixAutoUpdate = false;
+  }
+
+  /** Makes the chunks, one at each step, and shows each when the step after it is taken. */
+  *build(key_of: (move: number) => number): Generator<RoadChunk, void> {
+    for (let first = 0; first < this.move.length; first += chunk_roads) {
+      const move = this.move.subarray(first, first + chunk_roads);
+      const chunk = new RoadChunk(this.words.subarray(words_per_road * first, words_per_road * (first + move.length)), move, key_of, this.material);
+      this.chunks.push(chunk);
+      yield chunk;
+      this.group.add(chunk.mesh);
+      this.show(this.wanted);
+    }
+  }
+
+  /** All chunks at once. */
+  static of(roads: Pick<Roads, "words" | "move" | "count">, key_of: (move: number) => number, material: RoadMaterial): RoadSet {
+    const made = new RoadSet(roads, material);
+    for (const _ of made.build(key_of));
+    return made;
+  }
+
+  show(count: number): void {
+    this.wanted = count;
+    this.chunks.forEach((c, k) => c.show(Math.max(0, Math.min(c.move.length, count - k * chunk_roads))));
+  }
+
+  /** Roads drawn. */
+  get shown(): number { return this.chunks.reduce((sum, c) => sum + c.shown, 0); }
+
+  /** Gives roads new keys, a chunk at each step. */
+  *new_keys(key_of: (move: number) => number): Generator<void, void> { for (const c of this.chunks) { c.set_keys(key_of); yield; } }
+
+  dispose(): void {
+    this.group.removeFromParent();
+    this.chunks.forEach((c) => c.dispose());
   }
 }

@@ -36,6 +36,9 @@ export function extruders_of(profiles: Profile[], printer: string): number {
   return Math.max(1, profile(profiles, "printer", printer)?.extruders ?? 1);
 }
 
+/** Whether a profile was sent to the program, and can be forgotten: not built in, nor that of the command line. */
+export const was_sent = (p: Profile) => p.group === "printer" && !p.chosen && p.name.endsWith(".toml");
+
 /** The printer's own materials and print settings: what changes when another printer is chosen. Which extruder a part is
  *  wanted of does not, so that choosing the printer before brings it back. */
 export function with_printer(choice: Choice, profiles: Profile[], printer: string): Choice {

@@ -1,17 +1,18 @@
 // The slicing panel: parts, printer, materials, options, and the button. What the server refuses is shown at its field.
 import { api, Refusal, type Mesh, type Option, type Profile } from "../data/api.ts";
-import { azimuth_option, extruder_of, extruders_of, found, job_request, options_that_matter, standing_azimuth, standing_value, with_printer, type Choice } from "../model/slicing.ts";
+import { azimuth_option, extruder_of, extruders_of, found, job_request, options_that_matter, standing_azimuth, standing_value, was_sent, with_printer, type Choice } from "../model/slicing.ts";
 import { el, field, option as choice_of } from "./dom.ts";
 import { option_field, type OptionField } from "./option_field.ts";
-import { amount } from "./words.ts";
+import { amount, named } from "./words.ts";
 
 export interface Slicing {
   element: HTMLElement;
   add_mesh: (mesh: Mesh) => void;
-  /** Takes a printer's profile and chooses it; what is wrong with it is told at the printer. */
-  add_printer: (file: File) => Promise<void>;
+  /** Takes printers' profiles and chooses the last that is sound; what is wrong with others is told at the printer. */
+  add_printers: (files: File[]) => Promise<void>;
 }
 
+const text_of = (e: unknown) => (e instanceof Error ? e.message : String(e));
 const protections: [string, string][] = [["full", "full: azimuth, rampart, planner"], ["rampart", "azimuth and rampart"], ["none", "none"]];
 
 export function slicing(pick: () => void, started: (id: number) => void): Slicing {
@@ -22,6 +23,8 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
   const parts = el("ul", { class: "parts" });
   const printer = el("select", { id: "printer", "aria-describedby": "printer-error", change: () => { complain_of_printer(""); choice = with_printer(choice, profiles, printer.value); refresh(); } });
   const printer_error = el("small", { class: "error", id: "printer-error", role: "alert", hidden: true });
+  const own_printers = el("ul", { class: "parts", id: "own-printers", "aria-label": "Printers added", hidden: true });
+  const add_own = el("button", { type: "button", class: "quiet", id: "add-printer", title: "A printer of your own: its profile, a .toml file", click: pick }, "Add a printer (.toml)…");
   const print = el("select", { id: "print-settings", change: () => { choice.print = print.value; refresh(); } });
   const protect = el("select", { id: "protect", change: () => { choice.protect = protect.value; refresh(); } }, ...protections.map(([v, t]) => choice_of(v, t)));
   const materials = el("div", { class: "materials" });
@@ -32,8 +35,7 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
   const go = el("button", { type: "submit", class: "primary", id: "slice" }, "Slice");
   const form = el("form", { class: "pane slicing", submit: (e: Event) => { e.preventDefault(); void slice(); } },
     el("h3", {}, "Parts"), parts, el("button", { type: "button", class: "quiet", id: "add-parts", click: pick }, "Add meshes…"),
-    el("div", { class: "grid2" }, field("Printer", printer), field("Print settings", print)), printer_error,
-    el("button", { type: "button", class: "quiet", id: "add-printer", title: "A printer of your own: its profile, a .toml file", click: pick }, "Add a printer (.toml)…"), materials, field("Protection of colours", protect),
+    el("div", { class: "grid2" }, field("Printer", printer), field("Print settings", print)), printer_error, own_printers, add_own, materials, field("Protection of colours", protect),
     el("h3", {}, "Options"), few, el("details", { id: "all-options" }, el("summary", {}, "All options"), search, all), error, go);
 
   function complain_of_printer(message: string): void {
@@ -107,17 +109,25 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
   }
 
   const printers = () => profiles.filter((p) => p.group === "printer" && !p.audit_only);
-  const fill_printers = () => printer.replaceChildren(...printers().map((p) => choice_of(p.name, p.name)));
+
+  /** Fills the lists of printers, and chooses one where the one chosen is gone. */
+  function take_profiles(got: Profile[]): void {
+    profiles = got;
+    const all_printers = printers(), own = profiles.filter(was_sent);
+    printer.replaceChildren(...all_printers.map((p) => choice_of(p.name, p.name)));
+    own_printers.replaceChildren(...own.map((p) => el("li", {}, el("span", { class: "name", title: p.name }, p.name), p.audit_only ? el("small", {}, "only to audit") : null,
+      el("button", { type: "button", class: "quiet small", "aria-label": `Remove ${p.name}`, title: "Have the program forget this printer", click: (e: Event) => void forget_printer(p.name, e.currentTarget as HTMLButtonElement) }, "×"))));
+    own_printers.hidden = own.length === 0;
+    if (all_printers.some((p) => p.name === choice.printer)) return;
+    const start = all_printers.find((p) => p.chosen) ?? all_printers.find((p) => p.name === "replicator-dual") ?? all_printers.find((p) => (p.extruders ?? 1) > 1) ?? all_printers[0];
+    if (start) choice = with_printer(choice, profiles, start.name);
+  }
 
   async function load(): Promise<void> {
     const [got_options, got_profiles, got_meshes] = await Promise.all([api.options(), api.profiles(), api.meshes()]);
     options = got_options;
-    profiles = got_profiles;
-    fill_printers();
-    print.replaceChildren(...profiles.filter((p) => p.group === "print").map((p) => choice_of(p.name, p.name)));
-    const all_printers = printers();
-    const start = all_printers.find((p) => p.chosen) ?? all_printers.find((p) => p.name === "replicator-dual") ?? all_printers.find((p) => (p.extruders ?? 1) > 1) ?? all_printers[0];
-    if (start) choice = with_printer(choice, profiles, start.name);
+    print.replaceChildren(...got_profiles.filter((p) => p.group === "print").map((p) => choice_of(p.name, p.name)));
+    take_profiles(got_profiles);
     for (const name of options_that_matter) { const o = options.find((x) => x.name === name); if (o) add_option(o, few, "option"); }
     const azimuth = option_field(azimuth_option, "option", (text) => { choice.azimuth = text ?? ""; refresh(); });
     fields.set(azimuth_option.name, [azimuth]);
@@ -138,19 +148,44 @@ export function slicing(pick: () => void, started: (id: number) => void): Slicin
     choice.meshes.push({ id: mesh.id, wanted: choice.meshes.length });
   }
 
-  async function add_printer(file: File): Promise<void> {
+  async function add_printers(files: File[]): Promise<void> {
     complain_of_printer("");
     await loaded;
-    try {
-      const { name } = await api.add_printer(file);
-      profiles = await api.profiles();
-      fill_printers();
-      if (!printers().some((p) => p.name === name)) throw new Refusal(`${name}: this profile serves only to audit G-code`, 0, "printer");
-      choice = with_printer(choice, profiles, name);
-    } catch (e) { complain(e); }
+    const wrong: string[] = [];
+    for (const file of files) {
+      try { await add_printer(file); } catch (e) { wrong.push(named(file.name, text_of(e))); }
+    }
     refresh();
+    complain_of_printer(wrong.join("\n"));
+  }
+
+  async function add_printer(file: File): Promise<void> {
+    const { name } = await api.add_printer(file);
+    const got = await api.profiles(), usable = !got.find((p) => p.group === "printer" && p.name === name)?.audit_only;
+    if (!usable) await api.forget_printer(name); // it would take a place that nobody sees
+    take_profiles(usable ? got : await api.profiles());
+    if (!usable) throw new Refusal(`${name}: this profile serves only to audit G-code`, 0, "printer");
+    choice = with_printer(choice, profiles, name);
+  }
+
+  /** The focus goes on to the printer below, else to the button that adds one. */
+  async function forget_printer(name: string, button: HTMLButtonElement): Promise<void> {
+    const at = [...own_printers.querySelectorAll("button")].indexOf(button);
+    complain_of_printer("");
+    button.disabled = true;
+    try {
+      await api.forget_printer(name).catch((e: unknown) => { if (!(e instanceof Refusal && e.status === 404)) throw e; }); // gone already
+      take_profiles(await api.profiles());
+    } catch (e) {
+      button.disabled = false;
+      complain_of_printer(named(name, text_of(e)));
+      return;
+    }
+    refresh();
+    const left = own_printers.querySelectorAll("button");
+    (left[Math.min(at, left.length - 1)] ?? add_own).focus();
   }
 
   const loaded = load().catch(complain);
-  return { element: form, add_mesh(mesh) { take(mesh); refresh(); }, add_printer };
+  return { element: form, add_mesh(mesh) { take(mesh); refresh(); }, add_printers };
 }
