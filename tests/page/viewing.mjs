@@ -106,7 +106,7 @@ export async function viewing(chrome, address) {
       seen.add((await page.locator(".picture").screenshot({ path: new URL(`../../build/page-test/colour-${colouring}.png`, import.meta.url).pathname })).toString("base64"));
       const legend = await page.locator(".legend li").allTextContents();
       assert.ok(legend.length > 0);
-      if (colouring === "role") assert.deepEqual(legend.filter((role) => /rampart|skirt/.test(role)), ["rampart"]);
+      if (colouring === "role") assert.deepEqual(legend.filter((role) => /rampart|skirt/.test(role)).sort(), ["rampart", "skirt brim"], "walls, and the brim they stand on");
     }
     assert.equal(seen.size, 8);
     await page.selectOption("#colouring", "extruder");
