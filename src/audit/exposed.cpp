@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "audit/part_voxels.hpp"
+
 namespace cleancolor {
 namespace {
 
 constexpr double most_field_cells = 4e6, least_cells = 3e5,
                  cells_per_road = 5e3;  // few roads far apart get larger cells
-constexpr double widest_told_mm = 20;   // what is told wider is an error of the file
 constexpr double least_wipe_area_mm2 = 0.03;
 constexpr double place_spacing_mm = 1;  // where a road is asked whether it faces the outside
 constexpr int most_places = 64;
 
 double half_width_mm(const LabelledRoad& r) {
-  return std::clamp(double(r.width_mm), 0., widest_told_mm) / 2;
+  return std::clamp(double(r.width_mm), 0., widest_road_mm) / 2;
 }
 
 /// |= each cell's four neighbours, so often.

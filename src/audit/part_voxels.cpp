@@ -10,7 +10,6 @@
 namespace cleancolor {
 namespace {
 
-constexpr double widest_road_mm = 20;   // what is told wider is an error of the file, and would only cost time
 constexpr double highest_layer_mm = 2;  // likewise: a gap below a road is air
 
 PartRoads::Layer small(const PartLayer& layer) {

@@ -15,6 +15,9 @@
 
 namespace cleancolor {
 
+/// What is told wider is an error of the file, and would only cost time.
+inline constexpr double widest_road_mm = 20;
+
 struct PartRoad {
   Vec2 a_mm, b_mm;
   float width_mm = 0;

@@ -276,4 +276,14 @@ Ring convex_hull(const Polygons& region) {
   return hull;
 }
 
+Polygons filled(const Polygons& region) {
+  Polygons outer;
+  for (const Ring& ring : region)
+    if (ClipperLib::Orientation(ring)) outer.push_back(ring);
+  Polygons result;
+  for (Ring& ring : united(outer))
+    if (ClipperLib::Orientation(ring)) result.push_back(std::move(ring));
+  return result;
+}
+
 }  // namespace cleancolor

@@ -45,6 +45,8 @@ enum class Corners { miter, round, square };
 // Boolean operations, by the non-zero rule.  Cost: Clipper, about n log n in the number of points.
 Polygons united(const Polygons& a);
 Polygons united(const Polygons& a, const Polygons& b);
+/// Outer rings alone, united: what lies in a hole lies inside.
+Polygons filled(const Polygons& region);
 Polygons intersection(const Polygons& a, const Polygons& b);
 Polygons difference(const Polygons& a, const Polygons& b);
 

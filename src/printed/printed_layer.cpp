@@ -12,16 +12,11 @@ namespace {
 
 constexpr double same_place_mm = 0.005;  // of rounded coordinates
 constexpr double same_width_mm = 0.02;
-constexpr double thinnest_mm = 0.02, widest_mm = 10;  // of roads in a picture, whatever the file says
-
-double road_width(const GcodePrint& print, const Drive& d) {
-  return std::clamp(double(print.moves[d.move].width_mm), thinnest_mm, widest_mm);
-}
 
 Road road_of(const GcodePrint& print, const Drive& d) {
   const GcodeMove& move = print.moves[d.move];
   return {.role = d.role,
-          .width_mm = road_width(print, d),
+          .width_mm = road_width_mm(print.moves[d.move]),
           .height_mm = double(move.height_mm),
           .area_mm2 = d.pushed_mm3 / distance(d.from_mm, d.to_mm),
           .speed_mm_s = double(move.speed_mm_s)};
@@ -108,9 +103,6 @@ class RunCollector {
 bool is_outer(Role role) {
   return role == Role::external_perimeter;
 }
-bool is_wall(Role role) {
-  return role == Role::external_perimeter || role == Role::perimeter || role == Role::overhang_perimeter;
-}
 
 /// Points [first, last] of an open run as a closed path, where they come back to where they began.
 std::optional<Path> loop_of(const Path& run, std::size_t first, std::size_t last) {
@@ -151,7 +143,7 @@ std::vector<std::vector<LaidRoad>> laid_roads(const GcodePrint& print, const Aud
     if (!lays(machine, d)) return;
     const Vec2 offset = nozzle_offset_mm(machine, d.feeds);
     layers[d.layer - first].push_back(
-        {d.from_mm + offset, d.to_mm + offset, road_width(print, d), int(d.feeds), d.role});
+        {d.from_mm + offset, d.to_mm + offset, road_width_mm(print.moves[d.move]), int(d.feeds), d.role});
   });
   return layers;
 }

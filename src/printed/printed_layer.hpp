@@ -8,6 +8,7 @@
 // Its roads may change on the way: an inner loop that goes over into an outer wall is one run.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,11 @@ struct PrintedLayer {
 /// Requires: layer < print.layers.size().  Cost: one pass over the moves of the print.
 PrintedLayer printed_layer(const GcodePrint& print, const AuditMachine& machine, const Timeline& time,
                            std::uint32_t layer);
+
+/// Of the road that the move lays, within what a nozzle can print, whatever the file says.
+inline double road_width_mm(const GcodeMove& move) {
+  return std::clamp(double(move.width_mm), 0.02, 10.);
+}
 
 /// A straight piece of plastic.
 struct LaidRoad {

@@ -10,7 +10,6 @@
 
 #include "base/error.hpp"
 #include "model/text_file.hpp"
-#include "model/text_scan.hpp"
 #include "reader/interpreter.hpp"
 #include "reader/layers.hpp"
 

@@ -13,6 +13,7 @@
 #include "model/ini.hpp"
 #include "model/reach.hpp"
 #include "plan/planner.hpp"
+#include "printed/printed_layer.hpp"
 #include "printed/regions.hpp"
 #include "printed/zones.hpp"
 #include "protection.hpp"
@@ -51,10 +52,6 @@ bool is_on(std::string_view value) {
   return value.find_first_not_of("0,") != value.npos;
 }
 
-bool is_wall(Role role) {
-  return role == Role::external_perimeter || role == Role::perimeter || role == Role::overhang_perimeter;
-}
-
 double distance_to(const Polygons& rings, Vec2 p) {
   double least = INFINITY;
   for (const Ring& ring : rings)
@@ -90,12 +87,6 @@ struct Scene {
   std::vector<Layer> layers;  // their paths as in the file
 };
 
-Polygons filled(const Polygons& region) {
-  Polygons outlines;
-  for (const Island& island : islands(region)) outlines.push_back(island.outline);
-  return united(outlines);
-}
-
 void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
                    Scene& scene) {
   const RecoveredLayer& layer = recovered.layers[k];
@@ -106,8 +97,8 @@ void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePr
     FilePoint from = run.from;
     for (const RunRoad& road : run.roads) {
       const GcodeMove& move = print.moves[road.move];
-      const LaidRoad laid{place_mm(from, run.tool, machine), place_mm(road.to, run.tool, machine),
-                          std::clamp(double(move.width_mm), 0.02, 10.), run.tool, move.role};
+      const LaidRoad laid{place_mm(from, run.tool, machine), place_mm(road.to, run.tool, machine), road_width_mm(move),
+                          run.tool, move.role};
       (is_auxiliary(move.role) ? extra : roads).push_back(laid);
       from = road.to;
     }
@@ -264,7 +255,7 @@ Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodeP
     const Vec2 to = place_mm(r.to, run.tool, machine);
     const double mm = distance(path.points.back(), to);
     const Road road{.role = move.role,
-                    .width_mm = std::clamp(double(move.width_mm), 0.02, 10.),
+                    .width_mm = road_width_mm(move),
                     .height_mm = move.height_mm > 0 ? double(move.height_mm) : height_mm,
                     .area_mm2 = mm > 0 ? double(r.filament_e5) * 1e-5 * filament_mm2 / mm : 0,
                     .speed_mm_s = std::max(1., r.feed_mm_min / 60)};

@@ -18,17 +18,6 @@ constexpr double least_disc_mm = 3;    // radius that an island keeps where it s
 constexpr double longest_steps = 2.5;  // so far from an old outline a shrunk one may lie
 constexpr double sliver_mm2 = 0.01;
 
-/// Outer rings alone, united: what lies in a hole lies inside.
-Polygons filled(const Polygons& region) {
-  Polygons outer;
-  for (const Ring& ring : region)
-    if (ClipperLib::Orientation(ring)) outer.push_back(ring);
-  Polygons result;
-  for (Ring& ring : united(outer))
-    if (ClipperLib::Orientation(ring)) result.push_back(std::move(ring));
-  return result;
-}
-
 /// Without its details, but none is lost as a whole.
 Polygons without_details(const Polygons& outline) {
   Polygons result;

@@ -39,6 +39,10 @@ enum class Role : std::uint8_t {
 };
 inline constexpr int role_count = 18;
 
+constexpr bool is_wall(Role role) {
+  return role == Role::external_perimeter || role == Role::perimeter || role == Role::overhang_perimeter;
+}
+
 /// Plastic that is not the part's: it wipes nozzles and fills them, and is thrown away.
 constexpr bool is_auxiliary(Role role) {
   switch (role) {
