@@ -19,8 +19,9 @@ void put(std::string& text, char letter, std::int64_t value) {
 
 }  // namespace
 
-Emitter::Emitter(const RecoveredPrint& recovered, const Config& config, std::string start)
+Emitter::Emitter(const RecoveredPrint& recovered, const DialectWords& words, const Config& config, std::string start)
     : recovered_(recovered),
+      words_(words),
       config_(config),
       text_(std::move(start)),
       state_(recovered.states[recovered.begin_state]),
@@ -65,7 +66,7 @@ void Emitter::put_e(std::int64_t delta_e5) {
 
 void Emitter::travel(FilePoint to) {
   if (known_ && to == at_) return;
-  text_ += "G1";
+  text_ += words_.travel;
   if (!known_ || to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);
   if (!known_ || to.y_um != at_.y_um) put<3>(text_, 'Y', to.y_um);
   put_feed(config_.travel_speed_mm_s * 60);
@@ -116,17 +117,17 @@ void Emitter::draw_back(std::int64_t to_e5) {
   put_feed(extruder().retract_speed_mm_s * 60);
   end_line();
   drawn_back_e5() += more;
-  zero_count();
+  if (words_.zeroes_e) zero_count();
 }
 
-void Emitter::push_forward() {
-  if (drawn_back_e5() <= 0) return;
+void Emitter::push_forward(std::int64_t to_e5) {
+  if (drawn_back_e5() <= to_e5) return;
   const Extruder& e = extruder();
   text_ += "G1";
-  put_e(drawn_back_e5());
+  put_e(drawn_back_e5() - to_e5);
   put_feed(60 * (e.deretract_speed_mm_s > 0 ? e.deretract_speed_mm_s : e.retract_speed_mm_s));
   end_line();
-  drawn_back_e5() = 0;
+  drawn_back_e5() = to_e5;
 }
 
 void Emitter::road(FilePoint to, std::int64_t filament_e5, double feed_mm_min) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/config.hpp"
+#include "replan/dialect_words.hpp"
 #include "replan/recovered.hpp"
 
 namespace cleancolor {
@@ -21,7 +22,7 @@ namespace cleancolor {
 class Emitter {
  public:
   /// As the file leaves the printer where its layers begin.
-  Emitter(const RecoveredPrint& recovered, const Config& config, std::string start);
+  Emitter(const RecoveredPrint& recovered, const DialectWords& words, const Config& config, std::string start);
 
   int tool() const { return tool_; }
   bool is_known() const { return known_; }
@@ -39,8 +40,8 @@ class Emitter {
   void set_z(double z_mm);  // of printing
   void lift(double by_mm);
   void lower();
-  void draw_back(std::int64_t to_e5);  // by so much in all
-  void push_forward();
+  void draw_back(std::int64_t to_e5);         // by so much in all
+  void push_forward(std::int64_t to_e5 = 0);  // until so much is still drawn back
   void road(FilePoint to, std::int64_t filament_e5, double feed_mm_min);
 
   /// The lines of the file; afterwards the place is told anew.
@@ -59,6 +60,7 @@ class Emitter {
   const Extruder& extruder() const { return config_.extruders[std::size_t(tool_)]; }
 
   const RecoveredPrint& recovered_;
+  const DialectWords& words_;
   const Config& config_;
   std::string text_;
   ModalState state_;

@@ -17,6 +17,7 @@
 #include "printed/regions.hpp"
 #include "printed/zones.hpp"
 #include "protection.hpp"
+#include "replan/cura.hpp"
 #include "toolpath/roads.hpp"
 
 namespace cleancolor {
@@ -204,7 +205,10 @@ std::vector<Layer> in_plain_order(Scene scene, const PrintedRampart& rampart, co
 
 }  // namespace
 
-Config planning_config(const GcodePrint& print, const AuditMachine& machine, const Config* printer) {
+namespace {
+
+/// The printer's, and over it what the configuration block of the file says.
+Config told_config(const GcodePrint& print, const Config* printer) {
   if (print.facts.config.empty() || print.facts.config_kind.empty())
     throw Error(
         fmt::format("{}: it has no configuration block at its end; it is not known how far filament is drawn "
@@ -222,7 +226,14 @@ Config planning_config(const GcodePrint& print, const AuditMachine& machine, con
     if (entry.key == "gcode_flavor" && (entry.value == "sailfish" || entry.value == "makerware"))
       throw Error(fmt::format("{}: gcode_flavor = {}: it counts E for each tool; that is not re-planned yet",
                               print.name, entry.value));
-  Config config = with_ini(printer != nullptr ? *printer : Config{}, print.facts.config, print.name).config;
+  return with_ini(printer != nullptr ? *printer : Config{}, print.facts.config, print.name).config;
+}
+
+}  // namespace
+
+Config planning_config(const GcodePrint& print, const AuditMachine& machine, const Config* printer) {
+  Config config =
+      print.facts.dialect == Dialect::cura ? cura_config(print, machine, printer) : told_config(print, printer);
   const std::size_t nozzles = machine.nozzles.size();
   while (config.extruders.size() < nozzles) config.extruders.push_back(config.extruders.back());
   config.extruders.resize(nozzles);

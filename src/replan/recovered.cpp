@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
 #include "base/error.hpp"
 #include "model/text_scan.hpp"
 #include "reader/known_commands.hpp"
+#include "replan/dialect_words.hpp"
 
 namespace cleancolor {
 namespace {
@@ -23,8 +26,8 @@ std::int64_t to_e5(double mm) {
   return std::llround(mm * 1e5);
 }
 
-bool begins_layer(std::string_view line) {
-  return line.starts_with(";LAYER_CHANGE") || line.starts_with(";BEFORE_LAYER_CHANGE");
+bool begins_with_one_of(std::string_view line, const std::array<std::string_view, 2>& prefixes) {
+  return std::ranges::any_of(prefixes, [&](std::string_view p) { return !p.empty() && line.starts_with(p); });
 }
 
 bool is_temperature(const GcodeLine& line) {
@@ -33,7 +36,7 @@ bool is_temperature(const GcodeLine& line) {
 
 class Recovery {
  public:
-  explicit Recovery(const GcodePrint& print) : print_(print), text_(*print.text) {}
+  Recovery(const GcodePrint& print, const DialectWords& words) : print_(print), words_(words), text_(*print.text) {}
 
   RecoveredPrint result() && {
     find_body();
@@ -64,17 +67,30 @@ class Recovery {
     if (text_.find('\r') != text_.npos)
       refuse(text_.find('\r'), "lines end with CR; save the file with plain line ends (LF)");
     std::size_t first = text_.npos;
-    for (const std::string_view mark : {"\n;LAYER_CHANGE", "\n;BEFORE_LAYER_CHANGE"})
-      first = std::min(first, text_.find(mark));
+    for (const std::string_view mark : words_.layer_begins)
+      if (!mark.empty()) first = std::min(first, text_.find(fmt::format("\n{}", mark)));
     if (first == text_.npos)
-      throw Error(fmt::format("{}: it has no ;LAYER_CHANGE comments; files of this slicer are not re-planned yet",
-                              print_.name));
+      throw Error(fmt::format("{}: it has no {} comments; files of this slicer are not re-planned yet", print_.name,
+                              words_.layer_begins.front()));
     r_.begin = first + 1;
     std::size_t last = 0;
     for (std::size_t i = 0; i < print_.moves.size(); ++i)
       if (lays_plastic(print_, i)) last = print_.moves[i].offset;
-    if (last < r_.begin) refuse(last, "nothing is printed after the first ;LAYER_CHANGE");
+    if (last < r_.begin)
+      refuse(last, fmt::format("nothing is printed after the first {}", words_.layer_begins.front()));
     r_.end = std::min(text_.find('\n', last), text_.size() - 1) + 1;
+    if (words_.travel == "G0") take_last_way();
+  }
+
+  /// What the last nozzle still wipes along belongs to the layers, for it is no way from anywhere else.
+  void take_last_way() {
+    for (std::size_t stop = r_.end; stop < text_.size(); ++stop) {
+      const std::string_view rest = text_.substr(stop);
+      const bool travels = rest.starts_with("G0 ") && rest.substr(0, rest.find('\n')).find('Z') == rest.npos;
+      if (!travels && !rest.starts_with(words_.elapsed)) return;
+      stop = std::min(text_.find('\n', stop), text_.size() - 1);
+      r_.end = stop + 1;
+    }
   }
 
   /// Index of the move that the line makes; nothing where it makes none.
@@ -99,6 +115,22 @@ class Recovery {
     back = std::max<std::int64_t>(0, back - to_e5(move.filament_mm));
   }
 
+  /// What a tool pushes forward before its first road, beyond what it has drawn back, it was taken to be drawn back by.
+  void take_first_pushes() {
+    std::vector<char> has_printed(drawn_back_e5_.size(), 0);
+    std::vector<std::int64_t> back_e5 = drawn_back_e5_;
+    for (std::size_t i = move_; i < print_.moves.size(); ++i) {
+      const GcodeMove& move = print_.moves[i];
+      if (has_printed[move.feeds] != 0) continue;
+      if (lays_plastic(print_, i)) {
+        has_printed[move.feeds] = 1;
+        drawn_back_e5_[move.feeds] += std::max<std::int64_t>(0, -back_e5[move.feeds]);
+      } else {
+        back_e5[move.feeds] -= to_e5(move.filament_mm);
+      }
+    }
+  }
+
   void before_layers() {
     read_line();
     if (line_.letter == 'M' && (line_.number == 82 || line_.number == 83)) r_.relative_e = line_.number == 83;
@@ -112,8 +144,9 @@ class Recovery {
     for (const GcodeEvent& e : print_.events)
       if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) tool_ = e.tool;
     r_.begin_tool = tool_;
-    if (!state_.contains("fan")) state_["fan"] = "M107";
     r_.states.push_back(state_);
+    state_.try_emplace("fan", "M107");
+    if (words_.begins_drawn_back) take_first_pushes();
     r_.begin_drawn_back_e5 = drawn_back_e5_;
     r_.begin_count_e5 = count_e5_;
     breaks_ = true;
@@ -125,7 +158,7 @@ class Recovery {
     if (line_.letter == 0 && line_.word.empty() && line_.present == 0) return comment();
     if (const auto what = modal_line(line_)) return set(*what);
     if (line_.letter == 'G') return command_g();
-    if (line_.letter == 'T') return tool_word();
+    if (const auto tool = tool_taken(line_)) return tool_word(*tool);
     if (line_.letter == 'M' && line_.number == 73) {
       ++r_.progress_lines;
       return;
@@ -142,8 +175,13 @@ class Recovery {
 
   void comment() {
     if (!line_.has_comment) return;
-    if (begins_layer(raw_)) {
-      if (has_layer_mark_ && raw_.starts_with(";BEFORE_LAYER_CHANGE")) refuse(at_, "a layer without roads");
+    if (!words_.elapsed.empty() && raw_.starts_with(words_.elapsed)) {
+      ++r_.elapsed_lines;
+      return;
+    }
+    if (begins_with_one_of(raw_, words_.layer_begins)) {
+      const bool may_follow = !words_.layer_begins[1].empty() && !raw_.starts_with(words_.layer_begins[1]);
+      if (has_layer_mark_ && !may_follow) refuse(at_, "a layer without roads");
       if (!has_layer_mark_) mark_layer();
       gap_.push_back({raw_, at_, false});
       return;
@@ -164,16 +202,19 @@ class Recovery {
   }
 
   /// What was driven since the last road is no way to the next.
-  void leave_run() {
+  void leave_run(std::size_t places) {
+    const auto to = way_.begin() + std::ptrdiff_t(std::min(places, way_.size()));
     if (!r_.layers.empty() && !r_.layers.back().runs.empty())
-      run().leaving.insert(run().leaving.end(), way_.begin(), way_.end());
-    way_.clear();
-    back_after_ = 0;
+      run().leaving.insert(run().leaving.end(), way_.begin(), to);
+    back_after_ -= std::min(back_after_, std::size_t(to - way_.begin()));
+    if (forward_after_) *forward_after_ -= std::min(*forward_after_, std::size_t(to - way_.begin()));
+    way_.erase(way_.begin(), to);
   }
+  void leave_run() { leave_run(way_.size()); }
 
   void mark_layer() {
     if (has_tool_) refuse(at_, "a layer begins after a tool change without a road between them");
-    leave_run();
+    leave_run(words_.rises_before_layer ? rises_after_.value_or(way_.size()) : way_.size());
     has_layer_mark_ = true;
     left_header_ = false;
     mark_in_gap_ = gap_.size();
@@ -181,6 +222,9 @@ class Recovery {
   }
 
   void command() {
+    const bool asks = line_.letter == 'M' && line_.number == 105;  // how hot it is
+    const bool heats = line_.letter == 'M' && (line_.number == 104 || line_.number == 109);
+    if (words_.times_heaters && (asks || heats)) return;
     if (is_temperature(line_)) {
       const bool bed = line_.number == 140 || line_.number == 190;
       if (!bed && !line_.has_value('T') && print_.tools > 1)
@@ -194,8 +238,8 @@ class Recovery {
     keep(true);
   }
 
-  void tool_word() {
-    if (line_.number < 0 || line_.number >= max_tools) refuse(at_, "a tool change that is not understood");
+  void tool_word(int tool) {
+    if (tool < 0 || tool >= max_tools) refuse(at_, "a tool change that is not understood");
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
     if (moved_among_notes_)
       refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
@@ -204,7 +248,8 @@ class Recovery {
     breaks_ = true;
     tool_in_gap_ = gap_.size();
     from_tool_ = tool_;
-    tool_ = line_.number;
+    tool_ = tool;
+    if (!r_.layers.empty()) r_.change_lift_mm = std::max(r_.change_lift_mm, rise_mm_);
     gap_.push_back({raw_, at_, false});
   }
 
@@ -236,6 +281,8 @@ class Recovery {
     if (move.filament_mm != 0 && across)
       refuse(at_, "filament is drawn back on the way (wipe while retracting); switch off 'wipe' in the slicer");
     if (has_layer_mark_) left_header_ = left_header_ || across;
+    if (move.to_mm.z != from.z && !rises_after_) rises_after_ = way_.size();
+    if (!r_.layers.empty()) rise_mm_ = std::max(rise_mm_, move.to_mm.z - r_.layers.back().z_mm);
     if (move.filament_mm > 0) {
       const std::int64_t beyond = to_e5(move.filament_mm) - drawn_back_e5_[move.feeds];
       if (beyond > rounding_e5) refuse(at_, "plastic is pushed out on the spot, more than was drawn back");
@@ -243,6 +290,8 @@ class Recovery {
     if (move.filament_mm < 0 && !drawn_back_) drawn_back_ = true, back_after_ = way_.size();
     if (move.feeds != move.tool) refuse(at_, "filament of another tool than the one in use is moved");
     move_filament(move);
+    if (move.filament_mm > 0 && !forward_after_ && drawn_back_e5_[move.feeds] <= rounding_e5)
+      forward_after_ = way_.size();
     if (across) way_.push_back({to_um(move.to_mm.x), to_um(move.to_mm.y)});
   }
 
@@ -326,6 +375,7 @@ class Recovery {
     } else {
       for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
     }
+    const std::size_t way_places = way_.size();
     r_.layers.back().runs.push_back({.tool = tool_,
                                      .from = {to_um(from.x), to_um(from.y)},
                                      .roads = {},
@@ -333,13 +383,17 @@ class Recovery {
                                      .way = std::move(way_),
                                      .leaving = {},
                                      .drawn_back = drawn_back_ || has_tool_,
-                                     .back_after = has_tool_ ? 0 : back_after_});
+                                     .back_after = has_tool_ ? 0 : back_after_,
+                                     .forward_after = forward_after_.value_or(way_places)});
     if (!run().way.empty()) run().way.pop_back();  // its start
     way_.clear();
     gap_.clear();
     breaks_ = has_layer_mark_ = has_tool_ = left_header_ = drawn_back_ = travelled_after_tool_ = false;
     moved_among_notes_ = false;
     back_after_ = 0;
+    rises_after_.reset();
+    forward_after_.reset();
+    rise_mm_ = 0;
   }
 
   struct Note {
@@ -370,7 +424,7 @@ class Recovery {
       std::vector<std::string>& header = r_.layers[m.layer].header;
       const auto known = r_.leave.find(m.from_tool);
       std::size_t plain = header.size();
-      while (plain > 0 && !header[plain - 1].starts_with(";HEIGHT:") && !header[plain - 1].starts_with(";Z:")) --plain;
+      while (plain > 0 && !begins_with_one_of(header[plain - 1], words_.header_ends)) --plain;
       const std::size_t length = known != r_.leave.end() ? known->second.size() : header.size() - plain;
       const auto rest = header.end() - std::ptrdiff_t(std::min(length, header.size()));
       std::vector<std::string> leave(rest, header.end());
@@ -385,6 +439,7 @@ class Recovery {
   }
 
   void finish() {
+    leave_run();
     r_.end_tool = tool_;
     if (r_.states.back() != state_) r_.states.push_back(state_);
     r_.end_state = std::uint32_t(r_.states.size() - 1);
@@ -405,6 +460,7 @@ class Recovery {
   };
 
   const GcodePrint& print_;
+  const DialectWords& words_;
   std::string_view text_;
   RecoveredPrint r_;
 
@@ -426,13 +482,17 @@ class Recovery {
   bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false, drawn_back_ = false;
   bool travelled_after_tool_ = false, moved_among_notes_ = false;
   std::size_t back_after_ = 0;
+  std::optional<std::size_t> rises_after_, forward_after_;  // so many places of the way
+  double rise_mm_ = 0;                                      // above the layer
   std::vector<Mixed> mixed_;
 };
 
 }  // namespace
 
 RecoveredPrint recovered_print(const GcodePrint& print) {
-  return Recovery(print).result();
+  const DialectWords* words = words_of(print.facts.dialect);
+  assert(words != nullptr);
+  return Recovery(print, *words).result();
 }
 
 }  // namespace cleancolor

@@ -43,7 +43,8 @@ struct RecoveredRun {
   std::vector<FilePoint> way;      // passed on the way here in the file
   std::vector<FilePoint> leaving;  // passed after it before the tool or the layer changes
   bool drawn_back = false;         // on the way here,
-  std::size_t back_after = 0;      // where so many places of the way were passed
+  std::size_t back_after = 0;      // where so many places of the way were passed,
+  std::size_t forward_after = 0;   // and pushed forward again after so many
 };
 
 struct RecoveredLayer {
@@ -68,6 +69,8 @@ struct RecoveredPrint {
   std::int64_t begin_count_e5 = 0, end_count_e5 = 0;  // of E
   double end_feed_mm_min = 0;
   std::size_t progress_lines = 0;  // M73 among the layers: told anew
+  std::size_t elapsed_lines = 0;   // likewise, of the time so far
+  double change_lift_mm = 0;       // of a nozzle before another one takes over
 };
 
 /// Throws Error("file:line: ...") for what cannot be put in another order for sure; it says what to do.

@@ -11,6 +11,7 @@
 #include "audit/timeline.hpp"
 #include "base/error.hpp"
 #include "gcode/polyline.hpp"
+#include "replan/dialect_words.hpp"
 #include "replan/emitter.hpp"
 #include "replan/planning.hpp"
 
@@ -91,7 +92,8 @@ class Writing {
         machine_(machine),
         config_(config),
         options_(options),
-        out_(recovered, config, start_of_text()),
+        words_(*words_of(print.facts.dialect)),
+        out_(recovered, words_, config, start_of_text()),
         asked_mm_(config.extruders.size(), 0.),
         written_e5_(config.extruders.size(), 0) {
     find_plain_states();
@@ -99,10 +101,7 @@ class Writing {
 
   std::string text(const std::vector<Layer>& layers) {
     for (std::size_t k = 0; k < layers.size(); ++k) layer(k, layers[k]);
-    if (out_.tool() != recovered_.end_tool) {
-      draw_back_for_change();
-      out_.change_tool(recovered_.end_tool);
-    }
+    if (out_.tool() != recovered_.end_tool) change_tool(recovered_.end_tool);
     out_.set(recovered_.states[recovered_.end_state]);
     std::string text = out_.finish();
     text += print_.text->substr(recovered_.end);
@@ -147,7 +146,16 @@ class Writing {
   void draw_back_for_change() {
     const Extruder& e = config_.extruders[std::size_t(out_.tool())];
     out_.draw_back(std::llround(e.retract_length_toolchange_mm * 1e5));
-    if (e.retract_lift_mm > 0) out_.lift(e.retract_lift_mm);
+    const double lift_mm = std::max(e.retract_lift_mm, recovered_.change_lift_mm);
+    if (lift_mm > 0) out_.lift(lift_mm);
+  }
+
+  void change_tool(int tool) {
+    draw_back_for_change();
+    out_.change_tool(tool);
+    if (!words_.pushes_at_change) return;
+    out_.push_forward(std::llround(config_.extruders[std::size_t(tool)].retract_length_mm * 1e5));
+    out_.lower();
   }
 
   void layer(std::size_t k, const Layer& planned) {
@@ -168,6 +176,7 @@ class Writing {
       if (std::exchange(is_written[std::size_t(path.source)], char(1)) != 0) fail("a path is planned twice");
       recovered_path(path, run);
     }
+    if (recovered_.elapsed_lines > 0) out_.line(fmt::format("{}0", words_.elapsed));
     if (std::ranges::find(is_written, 0) != is_written.end()) fail("a path is not planned");
   }
 
@@ -190,10 +199,7 @@ class Writing {
     for (const Vec2 p : path.travel) way.push_back(in_file(p, path.extruder));
     way.push_back(start);
     for (const FilePoint p : way) way_um += length_um(from, p), from = p;
-    if (changes) {
-      draw_back_for_change();
-      out_.change_tool(path.extruder);
-    }
+    if (changes) change_tool(path.extruder);
     const Extruder& e = config_.extruders[std::size_t(path.extruder)];
     if (way_um > e.retract_before_travel_mm * 1e3 - 1) draw_back();
     for (const FilePoint p : way) out_.travel(p);
@@ -201,24 +207,29 @@ class Writing {
 
   void go_as_in_file(const RecoveredRun& run, FilePoint start) {
     if (run.tool != out_.tool()) {
-      draw_back_for_change();
-      out_.change_tool(run.tool);
+      change_tool(run.tool);
       draw_back();
     }
     for (std::size_t i = 0; i < run.way.size(); ++i) {
       if (run.drawn_back && i == run.back_after) draw_back();
+      if (i == run.forward_after) push_forward();
       out_.travel(run.way[i]);
     }
     if (run.drawn_back && run.back_after >= run.way.size()) draw_back();
+    if (run.forward_after == run.way.size()) push_forward();
     out_.travel(start);
+  }
+
+  void push_forward() {
+    out_.lower();
+    out_.push_forward();
   }
 
   void recovered_path(const Path& path, const RecoveredRun& run) {
     const std::vector<Piece> pieces = begun(path, run);
     go(path, pieces.front().from, &run);
     out_.lines(run.notes);
-    out_.lower();
-    out_.push_forward();
+    push_forward();
     for (const Piece& p : pieces) {
       out_.set(recovered_.states[p.state]);
       out_.road(p.to, p.filament_e5, p.feed_mm_min);
@@ -289,8 +300,7 @@ class Writing {
     lay_out(path, config_.gcode_resolution_mm, config_.seam_gap_distance.of(e.nozzle_diameter_mm), line);
     if (line.points.size() < 2) return;
     go(path, in_file(line.points.front(), path.extruder), nullptr);
-    out_.lower();
-    out_.push_forward();
+    push_forward();
     ModalState state = recovered_.states[plain_state_[k][tool]];
     for (auto& [key, text] : state)
       if (key.starts_with("0 ")) text.clear();  // it belongs to no object
@@ -301,9 +311,12 @@ class Writing {
     for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
       if (next < line.stretches.size() && line.stretches[next].first_segment <= i) {
         road = line.stretches[next++].road;
-        state[std::string(type_key)] = ";TYPE:Skirt/Brim";
-        state[std::string(width_key)] = fmt::format(";WIDTH:{:.6g}", road.width_mm);
-        state[std::string(height_key)] = fmt::format(";HEIGHT:{:.6g}", road.height_mm);
+        state[std::string(type_key)] = words_.own_type;
+        if (!words_.own_object.empty()) state[std::string(mesh_key)] = words_.own_object;
+        if (words_.tells_sizes) {
+          state[std::string(width_key)] = fmt::format(";WIDTH:{:.6g}", road.width_mm);
+          state[std::string(height_key)] = fmt::format(";HEIGHT:{:.6g}", road.height_mm);
+        }
         out_.set(state);
         if (i == 0) out_.line(refills ? ";REFILL_START" : ";RAMPART_WALL");
       }
@@ -321,6 +334,7 @@ class Writing {
   const AuditMachine& machine_;
   const Config& config_;
   const WriteOptions& options_;
+  const DialectWords& words_;
   Emitter out_;
   std::size_t layer_ = 0;
   std::vector<std::vector<std::uint32_t>> plain_state_;  // [layer][tool]
