@@ -71,6 +71,8 @@ class Reading {
   const Frequent& travel_mm_s() const { return travel_mm_s_; }
   const Frequent& z_mm_s() const { return z_mm_s_; }
   const Habits& habits(std::size_t tool) const { return habits_[tool]; }
+  std::size_t backs_at_layers() const { return backs_at_layers_; }
+  bool begins_with_outer_walls() const { return outer_first_ > 0; }
 
  private:
   static double of(const std::map<Role, Frequent>& all, Role role, double otherwise) {
@@ -83,8 +85,23 @@ class Reading {
     return std::hypot(b.x - a.x, b.y - a.y);
   }
 
+  /// In each layer and tool that has inner and outer walls: which of them comes first.
+  void add_wall(const GcodeMove& move) {
+    const bool is_outer = move.role == Role::external_perimeter;
+    if (!is_outer && move.role != Role::perimeter) return;
+    if (move.layer != walls_layer_ || move.tool != walls_tool_) {
+      walls_layer_ = move.layer, walls_tool_ = move.tool;
+      first_is_outer_ = is_outer;
+      has_voted_ = false;
+    } else if (is_outer != first_is_outer_ && !has_voted_) {
+      has_voted_ = true;
+      outer_first_ += first_is_outer_ ? 1 : -1;
+    }
+  }
+
   void add_road(std::size_t i) {
     const GcodeMove& move = print_.moves[i];
+    add_wall(move);
     const double mm = way_mm(i);
     width_mm_.try_emplace(move.role, 0.01).first->second.add(road_width_mm(move), mm);
     speed_mm_s_.try_emplace(move.role, 0.01).first->second.add(move.speed_mm_s, mm);
@@ -122,15 +139,15 @@ class Reading {
     }
   }
 
- public:
-  std::size_t backs_at_layers() const { return backs_at_layers_; }
-
- private:
-  const GcodePrint& print_;
+ const GcodePrint& print_;
   std::map<Role, Frequent> width_mm_, speed_mm_s_;
   Frequent first_mm_s_{0.01}, travel_mm_s_{0.01}, z_mm_s_{0.01};
   std::vector<Habits> habits_;
   std::size_t backs_at_layers_ = 0;
+  std::uint32_t walls_layer_ = ~std::uint32_t{0};
+  std::uint8_t walls_tool_ = 0;
+  bool first_is_outer_ = false, has_voted_ = false;
+  int outer_first_ = 0;
   Gap gap_;
 };
 
@@ -185,6 +202,7 @@ Config cura_config(const GcodePrint& print, const AuditMachine& machine, const C
   config.travel_speed_mm_s = reading.travel_mm_s().value_or(config.travel_speed_mm_s);
   config.travel_speed_z_mm_s = reading.z_mm_s().value_or(0);
   config.first_layer_height_mm = print.layers.front().height_mm;
+  config.external_perimeters_first = reading.begins_with_outer_walls();
   config.layer_height_mm = print.layers[print.layers.size() / 2].height_mm;
   config.first_layer_extrusion_width = config.extrusion_width = length(0);
   config.external_perimeter_extrusion_width = length(outer_mm);

@@ -225,6 +225,7 @@ class Recovery {
     const bool asks = line_.letter == 'M' && line_.number == 105;  // how hot it is
     const bool heats = line_.letter == 'M' && (line_.number == 104 || line_.number == 109);
     if (words_.times_heaters && (asks || heats)) return;
+    if (words_.times_heaters && has_tool_ && line_.letter == 'M' && line_.number == 116) return keep(true);
     if (is_temperature(line_)) {
       const bool bed = line_.number == 140 || line_.number == 190;
       if (!bed && !line_.has_value('T') && print_.tools > 1)
