@@ -193,7 +193,8 @@ def command(program, offset, protect, printer, folder):
             "The settings of the printer do not say where its nozzles are (Nozzle offset X and Y of the extruders). Say it in "
             "the settings of this script, as 0x0,33x0."
         )
-    if toml := profile(printer, where):
+    toml = profile(printer, where)
+    if toml:
         path = os.path.join(folder, "printer.toml")
         with open(path, "w", encoding="utf-8") as file:
             file.write(toml)
@@ -211,7 +212,9 @@ def re_planned(text, program, offset, protect, printer):
         with open(path, "w", encoding="utf-8", newline="\n") as file:
             file.write(text)
         words = command(found, (offset or "").replace(" ", ""), protect, printer, folder) + [path]
-        done = subprocess.run(words, capture_output=True, text=True, check=False, creationflags=WINDOWLESS)
+        done = subprocess.run(
+            words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, creationflags=WINDOWLESS
+        )
         with open(path, encoding="utf-8", newline="") as file:
             result = file.read()
     said = [line.replace(path, "the print") for line in done.stderr.splitlines() if line.strip()]

@@ -45,7 +45,9 @@ struct Habits {
 
 /// What lies between two roads of a layer, or of two.
 struct Gap {
-  double back_mm = 0, way_mm = 0, lift_mm = 0;
+  double back_mm = 0;  // at most
+  double way_mm = 0, lift_mm = 0;
+  double now_back_mm = 0;
   int tool = 0;
 };
 
@@ -113,10 +115,9 @@ class Reading {
     const double mm = way_mm(i), rise = move.to_mm.z - print_.moves[i - 1].to_mm.z;
     gap_.way_mm += mm;
     gap_.lift_mm = std::max(gap_.lift_mm, rise);
-    if (move.filament_mm < 0 && move.tool == gap_.tool) {
-      gap_.back_mm -= move.filament_mm;
-      habits_[move.tool].back_mm_s.add(move.speed_mm_s);
-    }
+    if (move.tool == gap_.tool) gap_.now_back_mm -= move.filament_mm;
+    gap_.back_mm = std::max(gap_.back_mm, gap_.now_back_mm);
+    if (move.filament_mm < 0) habits_[move.tool].back_mm_s.add(move.speed_mm_s);
     if (move.filament_mm > 0) habits_[move.tool].forward_mm_s.add(move.speed_mm_s);
     if (move.filament_mm != 0) return;
     if (mm > 0 && rise == 0) travel_mm_s_.add(move.speed_mm_s, mm);
@@ -139,7 +140,7 @@ class Reading {
     }
   }
 
- const GcodePrint& print_;
+  const GcodePrint& print_;
   std::map<Role, Frequent> width_mm_, speed_mm_s_;
   Frequent first_mm_s_{0.01}, travel_mm_s_{0.01}, z_mm_s_{0.01};
   std::vector<Habits> habits_;
@@ -189,7 +190,8 @@ Config cura_config(const GcodePrint& print, const AuditMachine& machine, const C
         fmt::format("{}: E in mm3 is not re-planned yet; choose another G-code flavour in the slicer", print.name));
   const Reading reading(print);
   const double outer_mm = reading.width_mm(Role::external_perimeter, 0);
-  if (outer_mm < least_wall_mm || outer_mm > most_wall_mm)
+  const double height_mm = print.layers[print.layers.size() / 2].height_mm;
+  if (outer_mm < std::max(least_wall_mm, height_mm) || outer_mm > most_wall_mm)
     throw Error(
         fmt::format("{}: with filament of {:g} mm its outer walls would be {:.2f} mm wide; the file does not "
                     "say how thick its filament is: export it for filament of 1.75 mm, or put '; "
@@ -203,7 +205,7 @@ Config cura_config(const GcodePrint& print, const AuditMachine& machine, const C
   config.travel_speed_z_mm_s = reading.z_mm_s().value_or(0);
   config.first_layer_height_mm = print.layers.front().height_mm;
   config.external_perimeters_first = reading.begins_with_outer_walls();
-  config.layer_height_mm = print.layers[print.layers.size() / 2].height_mm;
+  config.layer_height_mm = height_mm;
   config.first_layer_extrusion_width = config.extrusion_width = length(0);
   config.external_perimeter_extrusion_width = length(outer_mm);
   config.perimeter_extrusion_width = length(reading.width_mm(Role::perimeter, outer_mm));

@@ -19,9 +19,9 @@ inline std::string fixture(const std::string& name) {
 }
 
 inline Replanned replanned_text(const std::string& text, const ReplanRequest& request = {},
-                                const Progress& progress = {}) {
+                                const Progress& progress = {}, const MachineRequest& where = {}) {
   const GcodePrint print = read_gcode(text, "in.gcode");
-  return replanned(print, audit_machine(print, {}), request, progress);
+  return replanned(print, audit_machine(print, where), request, progress);
 }
 
 /// The text with one line put before the first that begins so, beyond `after` bytes.
@@ -71,9 +71,9 @@ inline double length_mm(const RoadKey& road) {
 struct Cleanness {
   double smear_mm3 = 0, hole_mm3 = 0, time_s = 0;
 };
-inline Cleanness cleanness(const std::string& text) {
+inline Cleanness cleanness(const std::string& text, const MachineRequest& where = {}) {
   const GcodePrint print = read_gcode(text, "print.gcode");
-  const AuditResult result = audit(print, audit_machine(print, {}));
+  const AuditResult result = audit(print, audit_machine(print, where));
   return {result.scenarios.front().total.smear_volume(), result.scenarios.front().total.hole_volume,
           result.print_time_s};
 }
