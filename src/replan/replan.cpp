@@ -10,6 +10,7 @@
 #include "audit/timeline.hpp"
 #include "base/error.hpp"
 #include "reader/read.hpp"
+#include "replan/kept_shield.hpp"
 #include "replan/planning.hpp"
 #include "replan/recovered.hpp"
 #include "replan/same_print.hpp"
@@ -64,7 +65,7 @@ void correct_estimates(std::string& text, double told_s, double share) {
   }
 }
 
-/// Lines "M73 P.. R.." anew: percent and minutes as the print goes now.
+/// Lines "M73 P.. R.." anew: percent and, where they tell them, minutes as the print goes now.
 std::string with_progress(const GcodePrint& after, const Timeline& time, double share) {
   const std::string_view text = *after.text;
   std::string result;
@@ -78,8 +79,8 @@ std::string with_progress(const GcodePrint& after, const Timeline& time, double 
       for (; move < after.moves.size() && after.moves[move].offset < at; ++move) done_s += time.duration_s[move];
       const double left_s = std::max(0., time.print_time_s - done_s);
       const bool ends = move == after.moves.size() || left_s < 1;
-      result += fmt::format("M73 P{} R{}", ends ? 100 : std::min(99, int(100 * done_s / time.print_time_s)),
-                            ends ? 0 : std::lround(left_s * share / 60));
+      result += fmt::format("M73 P{}", ends ? 100 : std::min(99, int(100 * done_s / time.print_time_s)));
+      if (line.find(" R") != line.npos) result += fmt::format(" R{}", ends ? 0 : std::lround(left_s * share / 60));
     } else {
       result += line;
     }
@@ -103,14 +104,18 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   Config config = planning_config(print, machine, request.printer ? &*request.printer : nullptr);
   if (request.protection == ReplanProtection::none || request.keeps_order) config.rampart = RampartShape::off;
   if (request.protection != ReplanProtection::full) config.planner = Planner::plain;
-  const RecoveredPrint recovered = recovered_print(print);
+  RecoveredPrint recovered = recovered_print(print);
+  std::vector<double> removed_mm;
+  if (request.removes_shield) removed_mm = remove_shield(recovered, print);
+  for (std::size_t t = 0; t < removed_mm.size(); ++t)
+    result.removed_mm3 += removed_mm[t] * filament_area_mm2(machine, int(t));
   const std::vector<Layer> layers = planned_layers(
       recovered, print, machine, config, {.plans = !request.keeps_order, .threads = request.threads}, progress);
   progress.advance("writing", 0);
   result.text = written(recovered, print, machine, config, layers,
                         {.as_in_file = request.keeps_order, .header = header_line(request)});
   const GcodePrint after = read_gcode(result.text, print.name);
-  if (const auto what = difference(print, after, machine))
+  if (const auto what = difference(print, after, machine, removed_mm))
     throw Error(
         fmt::format("{}: re-planned it would not be the same print: {}; the file is left as it is. Please "
                     "report it",
@@ -120,7 +125,7 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   result.time_s = time.print_time_s;
   if (result.old_time_s <= 0) return result;
   const double told_share = print.facts.told_time_s > 0 ? print.facts.told_time_s / result.old_time_s : 1;
-  if (recovered.progress_lines > 0) result.text = with_progress(after, time, told_share);
+  if (!recovered.progress_line.empty()) result.text = with_progress(after, time, told_share);
   correct_estimates(result.text, print.facts.told_time_s, result.time_s / result.old_time_s);
   return result;
 }
