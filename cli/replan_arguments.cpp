@@ -57,6 +57,10 @@ CLI::App* add_replan(CLI::App& program, ReplanTexts& texts) {
       ->type_name("plan|keep")
       ->group(group);
   replan->add_option("--travel", texts.travel, "ways between the paths")->type_name("plan|keep")->group(group);
+  replan
+      ->add_flag("--remove-shield", command.removes_shield,
+                 "take away a skirt as high as the print; the rampart takes its place")
+      ->group(group);
   group = "Output";
   replan->add_option("-o,--output", command.output, "file to write")->type_name("FILE.gcode")->group(group);
   replan->add_flag("--post-process", command.post_process, "edit the file in place, as slicers ask of their scripts")

@@ -19,6 +19,7 @@ constexpr DialectWords cura = {.layer_begins = {";LAYER:", {}},
                                .zeroes_e = false,
                                .rises_before_layer = true,
                                .begins_drawn_back = true,
+                               .tower_is_roads = true,
                                .times_heaters = true,
                                .pushes_at_change = true};
 

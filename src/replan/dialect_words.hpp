@@ -24,6 +24,7 @@ struct DialectWords {
   bool zeroes_e = true;             // after each drawing back
   bool rises_before_layer = false;  // and goes to where the layer begins
   bool begins_drawn_back = false;   // a tool is taken to be drawn back where it is used first
+  bool tower_is_roads = false;      // a prime tower is roads like others; else its pieces stay to the letter
   bool times_heaters = false;       // by how long a tool idles: replan/heaters.hpp
   bool pushes_at_change = false;    // a new tool lowers and pushes part of its filament forward before it travels
 };

@@ -47,6 +47,13 @@ class Emitter {
   /// The lines of the file; afterwards the place is told anew.
   void change_tool(int tool);
 
+  /// The lines as they are; afterwards the place is told anew.  Requires: the tool that the lines begin with is in use.
+  void fixed(const FixedLines& lines);
+
+  /// Drawing back on the way.
+  void wipe(FilePoint to, std::int64_t filament_e5, double feed_mm_min);
+  std::int64_t drawn_back_e5() const { return drawn_back_e5_[std::size_t(tool_)]; }
+
   /// E and speed as the rest of the file takes them for given.
   std::string finish();
 
@@ -56,7 +63,9 @@ class Emitter {
   void end_line() { text_ += '\n'; }
   void zero_count();
   void move_z(std::int64_t to_um);
-  std::int64_t& drawn_back_e5() { return drawn_back_e5_[std::size_t(tool_)]; }
+  void change_tool(int tool, std::span<const std::string> leave, std::span<const std::string> enter);
+  std::int64_t& count_e5() { return count_e5_[recovered_.e_of_each_tool ? std::size_t(tool_) : 0]; }
+  std::int64_t& back_e5() { return drawn_back_e5_[std::size_t(tool_)]; }
   const Extruder& extruder() const { return config_.extruders[std::size_t(tool_)]; }
 
   const RecoveredPrint& recovered_;
@@ -68,7 +77,7 @@ class Emitter {
   bool known_ = false, z_known_ = false;
   FilePoint at_;
   std::int64_t z_um_ = 0, told_z_um_ = 0, lift_um_ = 0;
-  std::int64_t count_e5_ = 0;
+  std::vector<std::int64_t> count_e5_;
   std::int64_t feed_ = -1;  // 1e-3 mm/min
   std::vector<std::int64_t> drawn_back_e5_;
 };

@@ -51,6 +51,9 @@ std::optional<ModalLine> of_m(const GcodeLine& line) {
     case 106:
     case 107:
       return ModalLine{line.has_value('P') ? fmt::format("fan {:g}", line['P']) : std::string("fan")};
+    case 126:
+    case 127:
+      return ModalLine{fmt::format("valve{}", letters_in(line, "TP"))};
     case 201:
     case 203:
     case 204:

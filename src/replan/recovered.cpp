@@ -40,6 +40,13 @@ class Recovery {
 
   RecoveredPrint result() && {
     find_body();
+    for (const IniEntry& entry : print_.facts.config) {
+      const bool sailfish = entry.value == "sailfish", makerware = entry.value == "makerware";
+      if (entry.key == "ooze_prevention") stands_aside_ = entry.value == "1";
+      if (entry.key != "gcode_flavor") continue;
+      r_.e_of_each_tool = sailfish || makerware;
+      r_.says_on_and_off = makerware;
+    }
     drawn_back_e5_.resize(std::max<std::size_t>(std::size_t(print_.tools), max_tools));
     for (at_ = 0; at_ < r_.begin; at_ = next_) before_layers();
     begin_layers();
@@ -93,6 +100,13 @@ class Recovery {
     }
   }
 
+  /// As the file leaves it so far.
+  std::uint32_t state_index() {
+    if (state_changed_ && r_.states.back() != state_) r_.states.push_back(state_);
+    state_changed_ = false;
+    return std::uint32_t(r_.states.size() - 1);
+  }
+
   /// Index of the move that the line makes; nothing where it makes none.
   std::optional<std::size_t> take_move() {
     while (move_ < print_.moves.size() && print_.moves[move_].offset < at_) ++move_;
@@ -106,9 +120,14 @@ class Recovery {
   void count_e() {
     const bool sets = line_.letter == 'G' && line_.number == 92;
     const bool moves = line_.letter == 'G' && line_.number <= 1;
-    if (line_.has_value('E') && (sets || (moves && !r_.relative_e))) count_e5_ = to_e5(line_['E']);
+    const auto counts = [&](char letter, int tool) {
+      if (line_.has_value(letter) && (sets || (moves && !r_.relative_e))) count_e5(tool) = to_e5(line_[letter]);
+    };
+    counts('E', tool_);
+    if (r_.e_of_each_tool) counts('A', 0), counts('B', 1);
     if (moves && line_.has_value('F')) feed_ = line_['F'];
   }
+  std::int64_t& count_e5(int tool) { return count_e5_[r_.e_of_each_tool ? std::size_t(tool) : 0]; }
 
   void move_filament(const GcodeMove& move) {
     std::int64_t& back = drawn_back_e5_[move.feeds];
@@ -135,12 +154,12 @@ class Recovery {
     read_line();
     if (line_.letter == 'M' && (line_.number == 82 || line_.number == 83)) r_.relative_e = line_.number == 83;
     count_e();
+    if (const auto tool = tool_taken(line_); tool && *tool >= 0 && *tool < max_tools) tool_ = *tool;
     if (const auto what = modal_line(line_)) take(state_, *what, raw_);
     while (move_ < print_.moves.size() && print_.moves[move_].offset < next_) move_filament(print_.moves[move_++]);
   }
 
   void begin_layers() {
-    tool_ = 0;
     for (const GcodeEvent& e : print_.events)
       if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) tool_ = e.tool;
     r_.begin_tool = tool_;
@@ -154,15 +173,17 @@ class Recovery {
 
   void in_layers() {
     read_line();
+    if (raw_.starts_with(";TYPE:Wipe tower")) return tower();
     count_e();
     if (line_.letter == 0 && line_.word.empty() && line_.present == 0) return comment();
     if (const auto what = modal_line(line_)) return set(*what);
     if (line_.letter == 'G') return command_g();
-    if (const auto tool = tool_taken(line_)) return tool_word(*tool);
+    if (const auto tool = tool_taken(line_)) return change_to(*tool);
     if (line_.letter == 'M' && line_.number == 73) {
-      ++r_.progress_lines;
+      if (r_.progress_line.empty()) r_.progress_line = raw_;
       return;
     }
+    if (r_.says_on_and_off && line_.letter == 'M' && (line_.number == 101 || line_.number == 103)) return;
     if (line_.letter == 0 && line_.word.empty())
       refuse(at_, "a move without its G command among the layers is not re-planned");
     command();
@@ -174,7 +195,7 @@ class Recovery {
   }
 
   void comment() {
-    if (!line_.has_comment) return;
+    if (!line_.has_comment || raw_ == ";WIPE_START" || raw_ == ";WIPE_END") return;
     if (!words_.elapsed.empty() && raw_.starts_with(words_.elapsed)) {
       ++r_.elapsed_lines;
       return;
@@ -239,11 +260,12 @@ class Recovery {
     keep(true);
   }
 
-  void tool_word(int tool) {
+  void change_to(int tool) {
     if (tool < 0 || tool >= max_tools) refuse(at_, "a tool change that is not understood");
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
-    if (moved_among_notes_)
+    if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
       refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
+    if (moved_among_notes_ > 0) stand_ = way_.back(), way_.pop_back();
     leave_run();
     has_tool_ = true;
     breaks_ = true;
@@ -275,12 +297,16 @@ class Recovery {
   }
 
   void go(const GcodeMove& move, Vec3 from) {
-    breaks_ = true;
     const bool across = from.x != move.to_mm.x || from.y != move.to_mm.y || (!move.known_start && move.names_xy);
+    if (!breaks_ && move.names_xy && !across && move.filament_mm > 0) {  // a road too short to be told
+      run().roads.back().filament_e5 += to_e5(move.filament_mm);
+      return;
+    }
+    breaks_ = true;
     if (across && has_tool_) travelled_after_tool_ = true;
-    if (across && !has_tool_ && !gap_.empty()) moved_among_notes_ = true;
-    if (move.filament_mm != 0 && across)
-      refuse(at_, "filament is drawn back on the way (wipe while retracting); switch off 'wipe' in the slicer");
+    if (move.filament_mm < 0 && across) return wipe(move);
+    if (move.filament_mm > 0 && across) refuse(at_, "filament is pushed on the way");
+    if (across && !has_tool_ && !gap_.empty()) ++moved_among_notes_;
     if (has_layer_mark_) left_header_ = left_header_ || across;
     if (move.to_mm.z != from.z && !rises_after_) rises_after_ = way_.size();
     if (!r_.layers.empty()) rise_mm_ = std::max(rise_mm_, move.to_mm.z - r_.layers.back().z_mm);
@@ -289,11 +315,67 @@ class Recovery {
       if (beyond > rounding_e5) refuse(at_, "plastic is pushed out on the spot, more than was drawn back");
     }
     if (move.filament_mm < 0 && !drawn_back_) drawn_back_ = true, back_after_ = way_.size();
-    if (move.feeds != move.tool) refuse(at_, "filament of another tool than the one in use is moved");
+    if (line_.has('A') || line_.has('B') || move.feeds != move.tool)
+      refuse(at_, "filament of another tool than the one in use is moved");
     move_filament(move);
     if (move.filament_mm > 0 && !forward_after_ && drawn_back_e5_[move.feeds] <= rounding_e5)
       forward_after_ = way_.size();
     if (across) way_.push_back({to_um(move.to_mm.x), to_um(move.to_mm.y)});
+  }
+
+  /// Drawing back on the way, over what was just printed.
+  void wipe(const GcodeMove& move) {
+    const bool follows = !has_tool_ && !r_.layers.empty() && !r_.layers.back().runs.empty() && !run().fixed;
+    if (!follows || move.feeds != move.tool) refuse(at_, "filament is drawn back on the way, but not after a road");
+    if (run().wipe.empty()) {
+      run().wipe_from = std::move(way_);
+      run().back_before_wipe_e5 = drawn_back_e5_[move.feeds];
+    } else if (!way_.empty()) {
+      refuse(at_, "filament is drawn back on the way, but not after a road");
+    }
+    way_.clear();
+    run().wipe.push_back({{to_um(move.to_mm.x), to_um(move.to_mm.y)}, -to_e5(move.filament_mm), feed_});
+    move_filament(move);
+    drawn_back_ = true;
+    back_after_ = 0;
+  }
+
+  /// A piece of a wipe tower: all from its first comment to its last road stays as it is.
+  void tower() {
+    if (!r_.relative_e) refuse(at_, "a wipe tower with absolute E is not re-planned; switch on relative E");
+    std::size_t last = 0, i = move_;
+    while (i < print_.moves.size() && print_.moves[i].offset < at_) ++i;
+    if (i == 0 || has_tool_) refuse(at_, "a wipe tower that begins with a tool change is not re-planned");
+    const Vec3 from = print_.moves[i - 1].to_mm;
+    for (; i < print_.moves.size(); ++i) {
+      if (!lays_plastic(print_, i)) continue;
+      const GcodeMove& move = print_.moves[i];
+      if (move.role != Role::wipe_tower || std::abs(move.to_mm.z - from.z) > same_height_mm) break;
+      last = i;
+    }
+    if (last == 0) return comment();  // it says so, and lays none
+    if (drawn_back_e5_[std::size_t(tool_)] > rounding_e5)
+      refuse(at_, "a wipe tower that begins while filament is drawn back");
+    FixedLines fixed{.lines = {}, .lays = true, .state = state_index(), .drawn_back_e5 = drawn_back_e5_};
+    close_gap(from);
+    const std::size_t end = std::min(text_.find('\n', print_.moves[last].offset), text_.size() - 1) + 1;
+    for (;; at_ = next_) {
+      read_line();
+      count_e();
+      fixed.lines.emplace_back(raw_);
+      if (const auto what = modal_line(line_)) set(*what);
+      if (const auto tool = tool_taken(line_)) tool_ = *tool;
+      for (; move_ < print_.moves.size() && print_.moves[move_].offset < next_; ++move_)
+        move_filament(print_.moves[move_]);
+      if (next_ >= end) break;
+    }
+    for (std::size_t t = 0; t < drawn_back_e5_.size(); ++t)
+      fixed.drawn_back_e5[t] = drawn_back_e5_[t] - fixed.drawn_back_e5[t];
+    const Vec3 to = print_.moves[last].to_mm;
+    fixed.tool_after = tool_;
+    fixed.to = {to_um(to.x), to_um(to.y)};
+    run().fixed = std::move(fixed);
+    r_.keeps_tools = breaks_ = true;
   }
 
   void lay(std::size_t index, const GcodeMove& move, Vec3 from) {
@@ -305,24 +387,23 @@ class Recovery {
       run().notes.emplace_back(note.text);
     }
     gap_.clear();
-    if (state_changed_) {
-      if (r_.states.back() != state_) r_.states.push_back(state_);
-      state_changed_ = false;
-    }
+    const std::uint32_t state = state_index();
     run().roads.push_back({.to = {to_um(move.to_mm.x), to_um(move.to_mm.y)},
                            .filament_e5 = to_e5(move.filament_mm),
                            .feed_mm_min = feed_,
-                           .state = std::uint32_t(r_.states.size() - 1),
+                           .state = state,
                            .move = std::uint32_t(index)});
   }
 
-  void require_known_road(const GcodeMove& move, Vec3 from) const {
+  void require_known_road(const GcodeMove& move, Vec3 from) {
     if (std::abs(from.z - move.to_mm.z) > same_height_mm)
       refuse(at_, "a road that rises (vase mode) is not re-planned");
     if (move.tool != move.feeds || move.tool != tool_) refuse(at_, "a road of another tool than the one in use");
     switch (move.role) {
       case Role::wipe_tower:
-        refuse(at_, "prints with a wipe tower are not re-planned yet; slice without it, a rampart is added");
+        if (!words_.tower_is_roads) refuse(at_, "a road of the wipe tower outside of it");
+        r_.keeps_tools = true;
+        return;
       case Role::support:
       case Role::support_interface:
         refuse(at_, "prints with supports are not re-planned yet");
@@ -362,16 +443,19 @@ class Recovery {
       refuse(at_, "roads of several heights in one layer are not re-planned yet");
     const std::size_t own_end = has_layer_mark_ ? mark_in_gap_ : tool_at;
     if (has_tool_) {
-      std::vector<std::string> enter;
+      std::vector<std::string> enter, leave;
       for (std::size_t i = tool_at; i < gap_.size(); ++i) enter.emplace_back(gap_[i].text);
-      require_same(r_.enter, tool_, enter);
       if (has_layer_mark_) {
         mixed_.push_back({r_.layers.size() - 1, from_tool_, gap_[tool_at].offset});
         for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
       } else {
-        std::vector<std::string> leave;
         for (std::size_t i = 0; i < tool_at; ++i) leave.emplace_back(gap_[i].text);
-        require_same(r_.leave, from_tool_, leave);
+      }
+      if (stand_) {
+        stand_aside(leave, enter);
+      } else {
+        require_same(r_.enter, tool_, enter);
+        if (!has_layer_mark_) require_same(r_.leave, from_tool_, leave);
       }
     } else {
       for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
@@ -390,11 +474,27 @@ class Recovery {
     way_.clear();
     gap_.clear();
     breaks_ = has_layer_mark_ = has_tool_ = left_header_ = drawn_back_ = travelled_after_tool_ = false;
-    moved_among_notes_ = false;
+    moved_among_notes_ = 0;
     back_after_ = 0;
     rises_after_.reset();
     forward_after_.reset();
     rise_mm_ = 0;
+  }
+
+  /// The change of tools as a stop on the way: where it stands, and its lines.
+  void stand_aside(const std::vector<std::string>& leave, const std::vector<std::string>& enter) {
+    FixedLines fixed{
+        .lines = leave, .tool_at = leave.size(), .tool_after = tool_, .to = *stand_, .state = state_index()};
+    fixed.lines.insert(fixed.lines.end(), enter.begin(), enter.end());
+    RecoveredRun stop;
+    stop.tool = from_tool_;
+    stop.from = *stand_;
+    stop.fixed = std::move(fixed);
+    stop.drawn_back = true;
+    r_.layers.back().runs.push_back(std::move(stop));
+    if (!has_layer_mark_) r_.leave.try_emplace(from_tool_, leave);
+    r_.keeps_tools = true;
+    stand_.reset();
   }
 
   struct Note {
@@ -429,12 +529,19 @@ class Recovery {
       const std::size_t length = known != r_.leave.end() ? known->second.size() : header.size() - plain;
       const auto rest = header.end() - std::ptrdiff_t(std::min(length, header.size()));
       std::vector<std::string> leave(rest, header.end());
-      const bool ends_so = known == r_.leave.end() || known->second == leave;
+      std::optional<FixedLines>& fixed = r_.layers[m.layer].runs.front().fixed;
+      const bool stands = fixed && !fixed->lays;
+      const bool ends_so = stands || known == r_.leave.end() || known->second == leave;
       if (!ends_so)
         refuse(m.offset,
                "a layer begins with a tool change that is not as those before; look at the custom G-code of "
                "tool and filament");
-      r_.leave.try_emplace(m.from_tool, leave);
+      if (stands) {
+        fixed->lines.insert(fixed->lines.begin(), leave.begin(), leave.end());
+        fixed->tool_at = leave.size();
+      } else {
+        r_.leave.try_emplace(m.from_tool, leave);
+      }
       header.erase(rest, header.end());
     }
   }
@@ -444,7 +551,7 @@ class Recovery {
     r_.end_tool = tool_;
     if (r_.states.back() != state_) r_.states.push_back(state_);
     r_.end_state = std::uint32_t(r_.states.size() - 1);
-    r_.end_count_e5 = count_e5_;
+    r_.end_count_e5 = count_e5(tool_);
     r_.end_feed_mm_min = feed_;
     for (std::size_t k = 1; k < r_.layers.size(); ++k)
       if (r_.layers[k].z_mm <= r_.layers[k - 1].z_mm + same_height_mm)
@@ -473,7 +580,7 @@ class Recovery {
   bool state_changed_ = true;
   int tool_ = 0, from_tool_ = 0;
   double feed_ = 0;
-  std::int64_t count_e5_ = 0;
+  std::vector<std::int64_t> count_e5_ = std::vector<std::int64_t>(max_tools, 0);
   std::vector<std::int64_t> drawn_back_e5_;
 
   // Since the last road:
@@ -481,7 +588,10 @@ class Recovery {
   std::vector<FilePoint> way_;
   std::size_t mark_in_gap_ = 0, tool_in_gap_ = 0;  // where the layer begins and the tool changes
   bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false, drawn_back_ = false;
-  bool travelled_after_tool_ = false, moved_among_notes_ = false;
+  bool travelled_after_tool_ = false;
+  int moved_among_notes_ = 0;
+  bool stands_aside_ = false;       // at changes of tools: the file's ooze_prevention
+  std::optional<FilePoint> stand_;  // where it does so this time
   std::size_t back_after_ = 0;
   std::optional<std::size_t> rises_after_, forward_after_;  // so many places of the way
   double rise_mm_ = 0;                                      // above the layer

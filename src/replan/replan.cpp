@@ -14,6 +14,7 @@
 #include "replan/cura.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/heaters.hpp"
+#include "replan/kept_shield.hpp"
 #include "replan/planning.hpp"
 #include "replan/recovered.hpp"
 #include "replan/same_print.hpp"
@@ -81,7 +82,8 @@ void correct_estimates(std::string& text, double told_s, double share) {
   }
 }
 
-/// Lines "M73 P.. R.." and ";TIME_ELAPSED:.." anew: percent, minutes and seconds as the print goes now.
+/// Lines "M73 P.. R.." and ";TIME_ELAPSED:.." anew: percent and, where they tell them, minutes and seconds as the print
+/// goes now.
 std::string with_progress(const GcodePrint& after, const Timeline& time, double share) {
   const std::string_view elapsed = words_of(after.facts.dialect)->elapsed;
   const std::string_view text = *after.text;
@@ -100,8 +102,8 @@ std::string with_progress(const GcodePrint& after, const Timeline& time, double 
     } else if (line.starts_with("M73 P")) {
       const double left_s = std::max(0., time.print_time_s - done_s);
       const bool ends = move == after.moves.size() || left_s < 1;
-      result += fmt::format("M73 P{} R{}", ends ? 100 : std::min(99, int(100 * done_s / time.print_time_s)),
-                            ends ? 0 : std::lround(left_s * share / 60));
+      result += fmt::format("M73 P{}", ends ? 100 : std::min(99, int(100 * done_s / time.print_time_s)));
+      if (line.find(" R") != line.npos) result += fmt::format(" R{}", ends ? 0 : std::lround(left_s * share / 60));
     } else {
       result += line;
     }
@@ -130,7 +132,11 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
         fmt::format("{}: the file does not say how large the bed is; {:g} mm around the print are taken to be "
                     "free for the rampart: name the printer (--printer) to be sure",
                     print.name, cura_free_mm));
-  const RecoveredPrint recovered = recovered_print(print);
+  RecoveredPrint recovered = recovered_print(print);
+  std::vector<double> removed_mm;
+  if (request.removes_shield) removed_mm = remove_shield(recovered, print);
+  for (std::size_t t = 0; t < removed_mm.size(); ++t)
+    result.removed_mm3 += removed_mm[t] * filament_area_mm2(machine, int(t));
   const std::vector<Layer> layers = planned_layers(
       recovered, print, machine, config, {.plans = !request.keeps_order, .threads = request.threads}, progress);
   progress.advance("writing", 0);
@@ -142,7 +148,7 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
     result.text = with_heaters(recovered, print, after, machine, words.layer_begins.front());
     after = read_gcode(result.text, print.name);
   }
-  if (const auto what = difference(print, after, machine))
+  if (const auto what = difference(print, after, machine, removed_mm))
     throw Error(
         fmt::format("{}: re-planned it would not be the same print: {}; the file is left as it is. Please "
                     "report it",
@@ -152,7 +158,8 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   result.time_s = time.print_time_s;
   if (result.old_time_s <= 0) return result;
   const double told_share = print.facts.told_time_s > 0 ? print.facts.told_time_s / result.old_time_s : 1;
-  if (recovered.progress_lines + recovered.elapsed_lines > 0) result.text = with_progress(after, time, told_share);
+  if (!recovered.progress_line.empty() || recovered.elapsed_lines > 0)
+    result.text = with_progress(after, time, told_share);
   const double longer = result.time_s / result.old_time_s;
   correct_estimates(result.text, print.facts.told_time_s, longer);
   if (print.facts.dialect == Dialect::cura) correct_cura_head(result.text, longer);
