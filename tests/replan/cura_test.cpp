@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <random>
 
 #include "replan/cura.hpp"
 #include "replanning.hpp"
@@ -243,6 +244,89 @@ TEST(ReplanCura, ChangesToolsByM135AsTheFileDoes) {
   EXPECT_EQ(out.find("\nT1\n"), out.npos);
   const auto before = part_filament(read_gcode(cura_bar(), "")), after = part_filament(read_gcode(out, ""));
   for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm);
+}
+
+/// Two bars of 12 x 4 mm with ooze shield and prime tower.
+const std::string& cura_tower() {
+  static const std::string text = fixture("cura-shield-tower.gcode");
+  return text;
+}
+
+/// Of each layer: tools in their order, and whether the tower is what each of them prints first.
+std::vector<std::vector<std::pair<int, bool>>> tools_of(const std::string& text) {
+  const GcodePrint print = read_gcode(text, "");
+  std::vector<std::vector<std::pair<int, bool>>> layers(print.layers.size());
+  int tool = -1;
+  std::uint32_t layer = 0;
+  for (std::size_t i = 0; i < print.moves.size(); ++i) {
+    const GcodeMove& move = print.moves[i];
+    if (!lays_plastic(print, i)) continue;
+    if (move.tool != tool || layer != move.layer)
+      layers[move.layer].emplace_back(move.tool, move.tool != tool && move.role == Role::wipe_tower);
+    tool = move.tool, layer = move.layer;
+  }
+  return layers;
+}
+
+TEST(ReplanCura, KeepsShieldAndTowerWhereTheyAre) {
+  const std::string out = cura_replanned(cura_tower()).text;
+  EXPECT_EQ(out.find(";RAMPART_WALL"), out.npos);
+  EXPECT_EQ(tools_of(cura_tower()), tools_of(out));
+  const auto all = [](const GcodePrint& print) {
+    std::map<ToolRole, double> sums;
+    for (std::size_t i = 0; i < print.moves.size(); ++i)
+      if (lays_plastic(print, i)) sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
+    return sums;
+  };
+  const auto before = all(read_gcode(cura_tower(), "")), after = all(read_gcode(out, ""));
+  ASSERT_EQ(before.size(), after.size());
+  EXPECT_TRUE(before.contains({1, Role::wipe_tower}));
+  for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm + 1e-3) << role_name(what.second);
+}
+
+TEST(ReplanCura, WithShieldAndTowerKeptMakesTheSameMoves) {
+  const auto before = ways_of(cura_tower()), after = ways_of(cura_replanned(cura_tower(), {.keeps_order = true}).text);
+  const auto [old_way, new_way] = std::ranges::mismatch(before, after);
+  EXPECT_TRUE(old_way == before.end() && new_way == after.end())
+      << "after " << old_way - before.begin() << " ways of " << before.size();
+}
+
+/// Lines left out, said twice, swapped or with another letter: whatever comes in is refused, or planned whole.
+TEST(ReplanCura, RefusesDamagedFilesOrPlansThemWhole) {
+  std::vector<std::string> lines;
+  std::istringstream in(cura_bar());
+  for (std::string line; std::getline(in, line);) lines.push_back(line + "\n");
+  int planned = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::vector<std::string> damaged = lines;
+    const std::size_t at = random() % damaged.size(), other = random() % damaged.size();
+    switch (random() % 4) {
+      case 0:
+        damaged.erase(damaged.begin() + std::ptrdiff_t(at));
+        break;
+      case 1:
+        damaged.insert(damaged.begin() + std::ptrdiff_t(at), std::string(lines[other]));
+        break;
+      case 2:
+        std::swap(damaged[at], damaged[other]);
+        break;
+      default:
+        damaged[at][0] = char('A' + random() % 26);
+    }
+    std::string text, out;
+    for (const std::string& line : damaged) text += line;
+    try {
+      out = cura_replanned(text).text;
+    } catch (const Error&) {
+      continue;
+    }
+    ++planned;
+    const auto before = part_filament(read_gcode(text, "")), after = part_filament(read_gcode(out, ""));
+    for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm + 0.01);
+  }
+  EXPECT_GT(planned, 5);
 }
 
 TEST(ReplanCura, RefusesWithLineAndReasonWhatItDoesNotKnowForSure) {
