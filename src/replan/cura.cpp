@@ -16,7 +16,8 @@ namespace {
 
 constexpr double least_wall_mm = 0.2, most_wall_mm = 2.5;  // what nozzles print
 constexpr double least_retracted_mm = 0.5, most_retracted_mm = 5;
-constexpr double seldom = 0.02;  // share of what is drawn back
+constexpr double seldom = 0.02;                            // share of what is drawn back
+constexpr double ironing_flow = 0.2, most_ironing = 0.05;  // of skins: share of the usual flow, of the length
 
 /// Values in steps, each with its weight.
 class Frequent {
@@ -25,6 +26,14 @@ class Frequent {
 
   void add(double value, double weight = 1) { weights_[std::llround(value / step_)] += weight; }
   bool empty() const { return weights_.empty(); }
+  double share_below(double value) const {
+    double all = 0, below = 0;
+    for (const auto& [step, weight] : weights_) {
+      all += weight;
+      below += double(step) * step_ < value ? weight : 0;
+    }
+    return all > 0 ? below / all : 0;
+  }
   double value_or(double otherwise) const {
     if (empty()) return otherwise;
     const auto heavier = [](const auto& a, const auto& b) { return a.second < b.second; };
@@ -75,6 +84,7 @@ class Reading {
   const Habits& habits(std::size_t tool) const { return habits_[tool]; }
   std::size_t backs_at_layers() const { return backs_at_layers_; }
   bool begins_with_outer_walls() const { return outer_first_ > 0; }
+  bool irons() const { return skin_flow_.share_below(ironing_flow * skin_flow_.value_or(0)) > most_ironing; }
 
  private:
   static double of(const std::map<Role, Frequent>& all, Role role, double otherwise) {
@@ -107,6 +117,7 @@ class Reading {
     const double mm = way_mm(i);
     width_mm_.try_emplace(move.role, 0.01).first->second.add(road_width_mm(move), mm);
     speed_mm_s_.try_emplace(move.role, 0.01).first->second.add(move.speed_mm_s, mm);
+    if (move.role == Role::solid_infill) skin_flow_.add(move.filament_mm / mm, mm);
     if (move.layer == 0 && is_wall(move.role)) first_mm_s_.add(move.speed_mm_s, mm);
   }
 
@@ -142,6 +153,7 @@ class Reading {
 
   const GcodePrint& print_;
   std::map<Role, Frequent> width_mm_, speed_mm_s_;
+  Frequent skin_flow_{0.0005};  // mm of filament a mm
   Frequent first_mm_s_{0.01}, travel_mm_s_{0.01}, z_mm_s_{0.01};
   std::vector<Habits> habits_;
   std::size_t backs_at_layers_ = 0;
@@ -197,6 +209,11 @@ Config cura_config(const GcodePrint& print, const AuditMachine& machine, const C
                     "say how thick its filament is: export it for filament of 1.75 mm, or put '; "
                     "filament_diameter = 2.85' into the start code",
                     print.name, machine.nozzles.front().filament_diameter_mm, outer_mm));
+  if (reading.irons())
+    throw Error(
+        fmt::format("{}: skins are gone over with hardly any plastic: ironing is not re-planned yet; switch it "
+                    "off in the slicer",
+                    print.name));
   if (reading.travel_mm_s().empty())
     throw Error(fmt::format("{}: it never travels, so nothing tells how fast; there is nothing to plan", print.name));
   Config config = printer != nullptr ? *printer : Config{};

@@ -43,6 +43,10 @@ void Emitter::set(const ModalState& to) {
   for (const auto& [key, text] : to) state_[key] = text;
 }
 
+void Emitter::forget(std::string_view key) {
+  if (const auto found = state_.find(key); found != state_.end()) state_.erase(found);
+}
+
 void Emitter::header(std::span<const std::string> all) {
   for (const std::string& text : all) {
     line(text);

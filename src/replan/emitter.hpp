@@ -32,6 +32,7 @@ class Emitter {
   void line(std::string_view text);
   void lines(std::span<const std::string> all);
   void set(const ModalState& to);
+  void forget(std::string_view key);  // it is told anew
 
   /// Lines that may be modal ones: the state follows.
   void header(std::span<const std::string> all);

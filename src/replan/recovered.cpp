@@ -81,8 +81,11 @@ class Recovery {
                               words_.layer_begins.front()));
     r_.begin = first + 1;
     std::size_t last = 0;
-    for (std::size_t i = 0; i < print_.moves.size(); ++i)
-      if (lays_plastic(print_, i)) last = print_.moves[i].offset;
+    for (std::size_t i = 0; i < print_.moves.size(); ++i) {
+      if (!lays_plastic(print_, i)) continue;
+      r_.prints_after_end = words_.tower_is_roads && is_auxiliary(print_.moves[i].role);
+      if (!r_.prints_after_end) last = print_.moves[i].offset;
+    }
     if (last < r_.begin)
       refuse(last, fmt::format("nothing is printed after the first {}", words_.layer_begins.front()));
     r_.end = std::min(text_.find('\n', last), text_.size() - 1) + 1;

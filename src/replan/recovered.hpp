@@ -80,6 +80,7 @@ struct RecoveredLayer {
 
 struct RecoveredPrint {
   std::size_t begin = 0, end = 0;  // of the layers in the text, bytes: what lies outside stays as it is
+  bool prints_after_end = false;   // more of a tower or shield
   std::vector<RecoveredLayer> layers;
   std::vector<ModalState> states;
 

@@ -160,7 +160,10 @@ class Writing {
 
   std::string text(const std::vector<Layer>& layers) {
     for (std::size_t k = 0; k < layers.size(); ++k) layer(k, layers[k]);
-    if (out_.tool() != recovered_.end_tool) change_tool(recovered_.end_tool);
+    if (out_.tool() != recovered_.end_tool) {
+      change_tool(recovered_.end_tool);
+      if (recovered_.prints_after_end) push_forward();
+    }
     out_.set(recovered_.states[recovered_.end_state]);
     std::string text = out_.finish();
     text += print_.text->substr(recovered_.end);
@@ -419,6 +422,7 @@ class Writing {
       out_.road(in_file(line.points[i + 1], path.extruder), filament, road.speed_mm_s * 60);
     }
     if (refills) out_.line(";REFILL_END");
+    out_.forget(type_key);  // what follows may be of the same type, but it is no wall
     wipe_ = {};
   }
 

@@ -268,17 +268,19 @@ std::vector<std::vector<std::pair<int, bool>>> tools_of(const std::string& text)
   return layers;
 }
 
+std::map<ToolRole, double> all_filament(const std::string& text) {
+  const GcodePrint print = read_gcode(text, "");
+  std::map<ToolRole, double> sums;
+  for (std::size_t i = 0; i < print.moves.size(); ++i)
+    if (lays_plastic(print, i)) sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
+  return sums;
+}
+
 TEST(ReplanCura, KeepsShieldAndTowerWhereTheyAre) {
   const std::string out = cura_replanned(cura_tower()).text;
   EXPECT_EQ(out.find(";RAMPART_WALL"), out.npos);
   EXPECT_EQ(tools_of(cura_tower()), tools_of(out));
-  const auto all = [](const GcodePrint& print) {
-    std::map<ToolRole, double> sums;
-    for (std::size_t i = 0; i < print.moves.size(); ++i)
-      if (lays_plastic(print, i)) sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
-    return sums;
-  };
-  const auto before = all(read_gcode(cura_tower(), "")), after = all(read_gcode(out, ""));
+  const auto before = all_filament(cura_tower()), after = all_filament(out);
   ASSERT_EQ(before.size(), after.size());
   EXPECT_TRUE(before.contains({1, Role::wipe_tower}));
   for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm + 1e-3) << role_name(what.second);
@@ -289,6 +291,50 @@ TEST(ReplanCura, WithShieldAndTowerKeptMakesTheSameMoves) {
   const auto [old_way, new_way] = std::ranges::mismatch(before, after);
   EXPECT_TRUE(old_way == before.end() && new_way == after.end())
       << "after " << old_way - before.begin() << " ways of " << before.size();
+}
+
+TEST(ReplanCura, LeavesLayersOfTheTowerAloneAboveThePartAsTheyAre) {
+  std::string text = cura_tower();
+  const std::size_t top = text.find(";LAYER:5");
+  for (std::size_t at = top; (at = text.find(";TYPE:", at)) != text.npos; ++at)
+    text.replace(at, text.find('\n', at) - at, ";TYPE:PRIME-TOWER");
+  const std::string out = cura_replanned(text).text;
+  const auto before = all_filament(text), after = all_filament(out);
+  for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm + 1e-3) << role_name(what.second);
+  const std::size_t from = text.find('\n', text.find(";TYPE:", top)), to = text.rfind("\nG92 E0");
+  EXPECT_NE(out.find(text.substr(from, std::min(to, text.find(";TIME_ELAPSED", top)) - from)), out.npos);
+}
+
+TEST(ReplanCura, TellsABrimFromTheWallsBesideIt) {
+  const std::string text = replaced(cura_bar(), ";TYPE:WALL-INNER", ";TYPE:SKIRT");
+  const auto before = all_filament(text), after = all_filament(cura_replanned(text).text);
+  const ToolRole brim{0, Role::skirt_brim};
+  ASSERT_TRUE(before.contains(brim));
+  EXPECT_GE(after.at(brim), before.at(brim) - 1e-3);
+  EXPECT_TRUE(after.contains({0, Role::rampart}));
+}
+
+TEST(ReplanCura, RefusesIroning) {
+  std::string text;
+  std::istringstream in(cura_bar());
+  bool skin = false;
+  double count = 0, told = 0;
+  int roads = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with(";TYPE:")) skin = line == ";TYPE:SKIN";
+    if (line == "G92 E0") count = told = 0;
+    const std::size_t e = line.find(" E");
+    if (line[0] == 'G' && line[1] != '9' && e != line.npos) {
+      std::size_t length = 0;
+      const double value = std::stod(line.substr(e + 2), &length);
+      const bool thin = skin && value > count && ++roads % 3 == 0;
+      told += (value - count) * (thin ? 0.1 : 1);
+      count = value;
+      line.replace(e + 2, length, fmt::format("{:.5f}", told));
+    }
+    text += line + "\n";
+  }
+  EXPECT_ERROR(cura_replanned(text), "ironing");
 }
 
 /// Lines left out, said twice, swapped or with another letter: whatever comes in is refused, or planned whole.
