@@ -19,6 +19,7 @@ namespace cleancolor {
 namespace {
 
 constexpr double same_place_mm = 0.002;
+constexpr double same_way_um = 50;
 constexpr std::int64_t unknown_way_um = 1'000'000'000;
 
 double length_um(FilePoint a, FilePoint b) {
@@ -236,6 +237,7 @@ class Writing {
   void layer(std::size_t k, const Layer& planned) {
     const RecoveredLayer& source = recovered_.layers[k];
     layer_ = k;
+    last_ = nullptr;
     std::vector<char> is_written(source.runs.size(), 0);
     out_.header(source.header);
     if (!recovered_.progress_line.empty()) out_.line(recovered_.progress_line);  // its numbers come later
@@ -275,8 +277,24 @@ class Writing {
     for (const FilePoint p : way) way_um += length_um(from, p), from = p;
     if (changes) change_tool(path.extruder);
     const Extruder& e = config_.extruders[std::size_t(path.extruder)];
-    if (way_um > e.retract_before_travel_mm * 1e3 - 1) draw_back();
+    const bool draws_back = way_um > e.retract_before_travel_mm * 1e3 - 1;
+    if (draws_back && !(run != nullptr && goes_so_in_file(*run, way_um))) draw_back();
     for (const FilePoint p : way) out_.travel(p);
+  }
+
+  /// Whether the file goes between this run and the one printed last, this way or the other, no shorter and without
+  /// drawing back.
+  bool goes_so_in_file(const RecoveredRun& run, double way_um) const {
+    if (last_ == nullptr || last_->tool != run.tool) return false;
+    const bool forward = &run == last_ + 1;
+    if (!forward && &run + 1 != last_) return false;
+    const RecoveredRun &before = forward ? *last_ : run, &after = forward ? run : *last_;
+    if (after.drawn_back || before.fixed || after.fixed) return false;
+    double sliced_um = 0;
+    FilePoint at = before.roads.back().to;
+    for (const FilePoint p : after.way) sliced_um += length_um(at, p), at = p;
+    sliced_um += length_um(at, after.from);
+    return way_um <= sliced_um + same_way_um;
   }
 
   void go_as_in_file(const RecoveredRun& run, FilePoint start) {
@@ -311,6 +329,7 @@ class Writing {
     wipe_ = options_.as_in_file ? Wipe{run.wipe_from, run.back_before_wipe_e5, run.wipe}
                                 : wipe_after(run, std::move(pieces), path.closed);
     leave(run);
+    last_ = &run;
   }
 
   void leave(const RecoveredRun& run) {
@@ -327,6 +346,7 @@ class Writing {
       out_.set(recovered_.states[run.fixed->state]);
     }
     out_.fixed(*run.fixed);
+    last_ = nullptr;
     wipe_ = {};
     leave(run);
   }
@@ -422,6 +442,7 @@ class Writing {
       out_.road(in_file(line.points[i + 1], path.extruder), filament, road.speed_mm_s * 60);
     }
     if (refills) out_.line(";REFILL_END");
+    last_ = nullptr;
     out_.forget(type_key);  // what follows may be of the same type, but it is no wall
     wipe_ = {};
   }
@@ -434,6 +455,7 @@ class Writing {
   const DialectWords& words_;
   Emitter out_;
   std::size_t layer_ = 0;
+  const RecoveredRun* last_ = nullptr;                   // printed last, in this layer
   Wipe wipe_;                                            // that the path printed last may be left with
   std::vector<std::vector<std::uint32_t>> plain_state_;  // [layer][tool]
   std::vector<double> asked_mm_;                         // of rampart and refills, by tool
