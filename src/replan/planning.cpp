@@ -214,7 +214,7 @@ std::vector<Polygons> reaches(const Scene& scene, const Config& config) {
 }
 
 /// What slicers do without colour protection, to compare.
-std::vector<Layer> in_plain_order(Scene scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
+std::vector<Layer> in_plain_order(Scene& scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
                                   const Config& config) {
   OrderState state{.extruder = recovered.layers.front().runs.front().tool, .at = {}, .seams = {}};
   for (Layer& layer : scene.layers) {
@@ -330,7 +330,7 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
   }
   std::vector<double> height_mm;
   for (const Slab& slab : scene.slices.slabs) height_mm.push_back(slab.height_mm);
-  if (config.planner == Planner::plain) return in_plain_order(std::move(scene), *rampart, recovered, config);
+  if (config.planner == Planner::plain) return in_plain_order(scene, *rampart, recovered, config);
   const SurfaceVisibility visibility(scene.slices.outlines, height_mm, {.threads = options.threads}, progress);
   const int first = recovered.layers.front().runs.front().tool;
   std::vector<int> first_of_layer = first_extruders(printing_by_layer(scene.slices), first);

@@ -81,8 +81,14 @@ class Recovery {
     for (std::size_t i = 0; i < print_.moves.size(); ++i)
       if (lays_plastic(print_, i)) last = print_.moves[i].offset;
     if (last < r_.begin) refuse(last, "nothing is printed after the first ;LAYER_CHANGE");
-    r_.end = std::min(text_.find('\n', last), text_.size() - 1) + 1;
+    r_.end = line_end(last);
+    // A wipe goes over the road before it, and so with it.
+    for (std::size_t at = r_.end; text_.substr(at, 1) == "G" || text_.substr(at, 5) == ";WIPE"; at = line_end(at))
+      if (text_.substr(at, 9) == ";WIPE_END") r_.end = line_end(at);
   }
+
+  /// Behind the line that begins at or contains this byte.
+  std::size_t line_end(std::size_t at) const { return std::min(text_.find('\n', at), text_.size() - 1) + 1; }
 
   /// As the file leaves it so far.
   std::uint32_t state_index() {
@@ -315,7 +321,7 @@ class Recovery {
       refuse(at_, "a wipe tower that begins while filament is drawn back");
     FixedLines fixed{.lines = {}, .lays = true, .state = state_index(), .drawn_back_e5 = drawn_back_e5_};
     close_gap(from);
-    const std::size_t end = std::min(text_.find('\n', print_.moves[last].offset), text_.size() - 1) + 1;
+    const std::size_t end = line_end(print_.moves[last].offset);
     for (;; at_ = next_) {
       read_line();
       count_e();
@@ -501,6 +507,7 @@ class Recovery {
     if (r_.states.back() != state_) r_.states.push_back(state_);
     r_.end_state = std::uint32_t(r_.states.size() - 1);
     r_.end_count_e5 = count_e5(tool_);
+    r_.end_drawn_back_e5 = drawn_back_e5_[std::size_t(tool_)];
     r_.end_feed_mm_min = feed_;
     for (std::size_t k = 1; k < r_.layers.size(); ++k)
       if (r_.layers[k].z_mm <= r_.layers[k - 1].z_mm + same_height_mm)

@@ -78,7 +78,8 @@ struct RecoveredLayer {
 };
 
 struct RecoveredPrint {
-  std::size_t begin = 0, end = 0;  // of the layers in the text, bytes: what lies outside stays as it is
+  std::size_t begin = 0, end = 0;  // of the layers in the text, bytes: what lies outside stays as it is; the wipe after
+                                   // the last road lies inside
   std::vector<RecoveredLayer> layers;
   std::vector<ModalState> states;
 
@@ -94,6 +95,7 @@ struct RecoveredPrint {
   std::vector<std::int64_t> begin_drawn_back_e5;  // of each tool
   std::vector<std::int64_t> begin_count_e5;       // of E, of each tool
   std::int64_t end_count_e5 = 0;                  // of the last one
+  std::int64_t end_drawn_back_e5 = 0;             // by a wipe after the last road
   double end_feed_mm_min = 0;
   std::string progress_line;  // the first M73 among the layers, which are told anew; empty: there are none
 };

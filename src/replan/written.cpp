@@ -162,6 +162,8 @@ class Writing {
       draw_back_for_change();
       out_.change_tool(recovered_.end_tool);
     }
+    wipe(recovered_.end_drawn_back_e5);
+    out_.draw_back(recovered_.end_drawn_back_e5);
     out_.set(recovered_.states[recovered_.end_state]);
     std::string text = out_.finish();
     text += print_.text->substr(recovered_.end);
