@@ -247,7 +247,9 @@ Config planning_config(const GcodePrint& print, const AuditMachine& machine, con
     if ((entry.key == "retract_lift_above" || entry.key == "retract_lift_below") && is_on(entry.value))
       throw Error(fmt::format("{}: {} = {}: lifting in some layers only is not re-planned yet; switch it off",
                               print.name, entry.key, entry.value));
-  Config config = with_ini(printer != nullptr ? *printer : Config{}, print.facts.config, print.name).config;
+  std::vector<IniEntry> told = print.facts.config;
+  std::erase_if(told, [](const IniEntry& entry) { return entry.key == "skirt_height"; });  // -1 of Slic3r: all layers
+  Config config = with_ini(printer != nullptr ? *printer : Config{}, told, print.name).config;
   const std::size_t nozzles = machine.nozzles.size();
   while (config.extruders.size() < nozzles) config.extruders.push_back(config.extruders.back());
   config.extruders.resize(nozzles);

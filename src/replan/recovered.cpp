@@ -44,6 +44,8 @@ class Recovery {
       r_.e_of_each_tool = sailfish || makerware;
       r_.says_on_and_off = makerware;
     }
+    says_roles_behind_ = print_.facts.dialect == Dialect::slic3r && text_.find("\n;TYPE:") == text_.npos &&
+                         text_.find("gcode_comments = 1") != text_.npos;
     drawn_back_e5_.resize(std::max<std::size_t>(std::size_t(print_.tools), max_tools));
     for (at_ = 0; at_ < r_.begin; at_ = next_) before_layers();
     begin_layers();
@@ -74,8 +76,10 @@ class Recovery {
     for (const std::string_view mark : {"\n;LAYER_CHANGE", "\n;BEFORE_LAYER_CHANGE"})
       first = std::min(first, text_.find(mark));
     if (first == text_.npos)
-      throw Error(fmt::format("{}: it has no ;LAYER_CHANGE comments; files of this slicer are not re-planned yet",
-                              print_.name));
+      throw Error(
+          fmt::format("{}: it has no ;LAYER_CHANGE comments; say them in the slicer's G-code after layer change "
+                      "(Slic3r: layer_gcode = ;LAYER_CHANGE)",
+                      print_.name));
     r_.begin = first + 1;
     std::size_t last = 0;
     for (std::size_t i = 0; i < print_.moves.size(); ++i)
@@ -145,6 +149,11 @@ class Recovery {
       if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) tool_ = e.tool;
     r_.begin_tool = tool_;
     if (!state_.contains("fan")) state_["fan"] = "M107";
+    // A wall of a rampart says what it is; what follows must say again that it does not.
+    if (print_.facts.dialect == Dialect::slic3r)
+      for (const auto& [key, line] :
+           {std::pair(type_key, ";TYPE:Unknown"), {width_key, ";WIDTH:0"}, {height_key, ";HEIGHT:0"}})
+        state_.try_emplace(std::string(key), line);
     r_.states.push_back(state_);
     r_.begin_drawn_back_e5 = drawn_back_e5_;
     r_.begin_count_e5 = count_e5_;
@@ -233,7 +242,7 @@ class Recovery {
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
     if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
       refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
-    if (moved_among_notes_ > 0) stand_ = way_.back(), way_.pop_back();
+    if (stands_aside_ && !way_.empty()) stand_ = way_.back(), way_.pop_back();
     leave_run();
     has_tool_ = true;
     breaks_ = true;
@@ -350,6 +359,11 @@ class Recovery {
       run().notes.emplace_back(note.text);
     }
     gap_.clear();
+    if (says_roles_behind_) {
+      const std::string type = fmt::format(";TYPE:{}", role_name(move.role));
+      state_changed_ = state_changed_ || state_[std::string(type_key)] != type;
+      state_[std::string(type_key)] = type;
+    }
     const std::uint32_t state = state_index();
     run().roads.push_back({.to = {to_um(move.to_mm.x), to_um(move.to_mm.y)},
                            .filament_e5 = to_e5(move.filament_mm),
@@ -481,7 +495,9 @@ class Recovery {
       std::vector<std::string>& header = r_.layers[m.layer].header;
       const auto known = r_.leave.find(m.from_tool);
       std::size_t plain = header.size();
-      while (plain > 0 && !header[plain - 1].starts_with(";HEIGHT:") && !header[plain - 1].starts_with(";Z:")) --plain;
+      while (plain > 0 && !header[plain - 1].starts_with(";HEIGHT:") && !header[plain - 1].starts_with(";Z:") &&
+             !begins_layer(header[plain - 1]))
+        --plain;
       const std::size_t length = known != r_.leave.end() ? known->second.size() : header.size() - plain;
       const auto rest = header.end() - std::ptrdiff_t(std::min(length, header.size()));
       std::vector<std::string> leave(rest, header.end());
@@ -545,6 +561,7 @@ class Recovery {
   bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false, drawn_back_ = false;
   bool travelled_after_tool_ = false;
   int moved_among_notes_ = 0;
+  bool says_roles_behind_ = false;  // roads say behind them what they are: verbose comments of Slic3r
   bool stands_aside_ = false;       // at changes of tools: the file's ooze_prevention
   std::optional<FilePoint> stand_;  // where it does so this time
   std::size_t back_after_ = 0;

@@ -10,6 +10,7 @@
 #include "audit/timeline.hpp"
 #include "base/error.hpp"
 #include "reader/read.hpp"
+#include "replan/found_roles.hpp"
 #include "replan/kept_shield.hpp"
 #include "replan/planning.hpp"
 #include "replan/recovered.hpp"
@@ -27,11 +28,11 @@ std::string_view producer_of(const GcodePrint& print) {
 }
 
 void require_known_dialect(const GcodePrint& print) {
-  if (print.facts.dialect == Dialect::prusaslicer) return;
+  if (print.facts.dialect == Dialect::prusaslicer || print.facts.dialect == Dialect::slic3r) return;
   if (print.facts.dialect == Dialect::cleancolor)
     throw Error(fmt::format("{}: cleancolor made it, so it is planned already", print.name));
-  throw Error(
-      fmt::format("{}: made by {}; only files of PrusaSlicer are re-planned so far", print.name, producer_of(print)));
+  throw Error(fmt::format("{}: made by {}; only files of PrusaSlicer and Slic3r are re-planned so far", print.name,
+                          producer_of(print)));
 }
 
 std::string header_line(const ReplanRequest& request) {
@@ -101,18 +102,23 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
     return result;
   }
   require_known_dialect(print);
+  const bool finds_roles = print.facts.dialect == Dialect::slic3r && !tells_roles(print);
+  if (finds_roles && request.removes_shield)
+    throw Error(fmt::format("{}: it does not say which roads are a shield; slice without it", print.name));
   Config config = planning_config(print, machine, request.printer ? &*request.printer : nullptr);
   if (request.protection == ReplanProtection::none || request.keeps_order) config.rampart = RampartShape::off;
   if (request.protection != ReplanProtection::full) config.planner = Planner::plain;
-  RecoveredPrint recovered = recovered_print(print);
+  const GcodePrint with_roles = finds_roles ? with_found_roles(print, machine) : GcodePrint{};
+  const GcodePrint& source = finds_roles ? with_roles : print;
+  RecoveredPrint recovered = recovered_print(source);
   std::vector<double> removed_mm;
-  if (request.removes_shield) removed_mm = remove_shield(recovered, print);
+  if (request.removes_shield) removed_mm = remove_shield(recovered, source);
   for (std::size_t t = 0; t < removed_mm.size(); ++t)
     result.removed_mm3 += removed_mm[t] * filament_area_mm2(machine, int(t));
   const std::vector<Layer> layers = planned_layers(
-      recovered, print, machine, config, {.plans = !request.keeps_order, .threads = request.threads}, progress);
+      recovered, source, machine, config, {.plans = !request.keeps_order, .threads = request.threads}, progress);
   progress.advance("writing", 0);
-  result.text = written(recovered, print, machine, config, layers,
+  result.text = written(recovered, source, machine, config, layers,
                         {.as_in_file = request.keeps_order, .header = header_line(request)});
   const GcodePrint after = read_gcode(result.text, print.name);
   if (const auto what = difference(print, after, machine, removed_mm))
