@@ -144,7 +144,7 @@ void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePr
       if (!fixed.lays)
         for (Vec2& p : leaving.points) p = p - nozzle_offset_mm(machine, run.tool) + nozzle_offset_mm(machine, after);
       leaving.points.pop_back();
-      scene.stops[k].push_back({int(i), std::move(leaving)});
+      scene.stops[k].push_back({int(i), fixed.lays, std::move(leaving)});
       continue;
     }
     Path path = path_of(layer.runs[i], int(i), layer.height_mm, print, machine);
@@ -219,13 +219,13 @@ std::vector<Layer> in_plain_order(Scene& scene, const PrintedRampart& rampart, c
   OrderState state{.extruder = recovered.layers.front().runs.front().tool, .at = {}, .seams = {}};
   for (Layer& layer : scene.layers) {
     const std::vector<Stop>& stops = scene.stops[std::size_t(layer.index)];
-    std::vector<Layer> stages = stages_of(with_walls(std::move(layer), rampart, config), stops);
-    layer = stages.front();
+    std::vector<Layer> parts = parts_of(with_walls(std::move(layer), rampart, config), stops);
+    layer = parts.front();
     layer.paths.clear();
-    for (Layer& stage : stages) {
-      if (scene.has_shield || !stops.empty()) state.extruder = stage.paths.front().extruder;
-      order(stage, state, config, rampart.site(layer.index));
-      std::ranges::move(stage.paths, std::back_inserter(layer.paths));
+    for (Layer& part : parts) {
+      if (scene.has_shield || !stops.empty()) state.extruder = part.paths.front().extruder;
+      order(part, state, config, rampart.site(layer.index));
+      std::ranges::move(part.paths, std::back_inserter(layer.paths));
     }
   }
   return std::move(scene.layers);
@@ -354,7 +354,11 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
   const auto take = [&](int k) {
     if (progress.interrupted()) throw Error("interrupted");
     std::optional<StagedLayer>& own = planned[std::size_t(k)];
-    own->arrive_from(below);
+    if (!own->arrive_from(below))
+      throw Error(
+          fmt::format("{}: layer {}: tools do not change in the order that is planned; such files are not "
+                      "re-planned yet",
+                      print.name, k + 1));
     below = own->last();
     result.push_back(std::move(*own).release());
     own.reset();
