@@ -10,7 +10,7 @@ constexpr DialectWords prusaslicer = {.layer_begins = {";LAYER_CHANGE", ";BEFORE
                                       .elapsed = {}};
 
 constexpr DialectWords cura = {.layer_begins = {";LAYER:", {}},
-                               .header_ends = {";LAYER:", {}},
+                               .header_ends = {},
                                .own_type = ";TYPE:SKIRT",
                                .own_object = ";MESH:NONMESH",
                                .elapsed = ";TIME_ELAPSED:",
@@ -28,6 +28,7 @@ constexpr DialectWords cura = {.layer_begins = {";LAYER:", {}},
 const DialectWords* words_of(Dialect dialect) {
   switch (dialect) {
     case Dialect::prusaslicer:
+    case Dialect::slic3r:
       return &prusaslicer;
     case Dialect::cura:
       return &cura;

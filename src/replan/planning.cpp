@@ -145,7 +145,7 @@ void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePr
       if (!fixed.lays)
         for (Vec2& p : leaving.points) p = p - nozzle_offset_mm(machine, run.tool) + nozzle_offset_mm(machine, after);
       leaving.points.pop_back();
-      scene.stops[k].push_back({int(i), std::move(leaving)});
+      scene.stops[k].push_back({int(i), fixed.lays, std::move(leaving)});
       continue;
     }
     Path path = path_of(layer.runs[i], int(i), layer.height_mm, print, machine);
@@ -153,7 +153,7 @@ void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePr
       Path leaving = path;
       leaving.points = {path.points.back()};
       leaving.stretches.resize(1);
-      scene.stops[k].push_back({int(i), std::move(leaving)});
+      scene.stops[k].push_back({int(i), true, std::move(leaving)});
     }
     path.island = zone_of(path, zones);
     path.depth = depth_of(path, path.island >= 0 ? &zones[std::size_t(path.island)] : nullptr);
@@ -221,18 +221,18 @@ std::vector<Polygons> reaches(const Scene& scene, const Config& config) {
 }
 
 /// What slicers do without colour protection, to compare.
-std::vector<Layer> in_plain_order(Scene scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
+std::vector<Layer> in_plain_order(Scene& scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
                                   const Config& config) {
   OrderState state{.extruder = recovered.layers.front().runs.front().tool, .at = {}, .seams = {}};
   for (Layer& layer : scene.layers) {
     const std::vector<Stop>& stops = scene.stops[std::size_t(layer.index)];
-    std::vector<Layer> stages = stages_of(with_walls(std::move(layer), rampart, config), stops);
-    layer = stages.front();
+    std::vector<Layer> parts = parts_of(with_walls(std::move(layer), rampart, config), stops);
+    layer = parts.front();
     layer.paths.clear();
-    for (Layer& stage : stages) {
-      if (scene.has_shield || !stops.empty()) state.extruder = stage.paths.front().extruder;
-      order(stage, state, config, rampart.site(layer.index));
-      std::ranges::move(stage.paths, std::back_inserter(layer.paths));
+    for (Layer& part : parts) {
+      if (scene.has_shield || !stops.empty()) state.extruder = part.paths.front().extruder;
+      order(part, state, config, rampart.site(layer.index));
+      std::ranges::move(part.paths, std::back_inserter(layer.paths));
     }
   }
   return std::move(scene.layers);
@@ -257,7 +257,9 @@ Config told_config(const GcodePrint& print, const Config* printer) {
     if ((entry.key == "retract_lift_above" || entry.key == "retract_lift_below") && is_on(entry.value))
       throw Error(fmt::format("{}: {} = {}: lifting in some layers only is not re-planned yet; switch it off",
                               print.name, entry.key, entry.value));
-  return with_ini(printer != nullptr ? *printer : Config{}, print.facts.config, print.name).config;
+  std::vector<IniEntry> told = print.facts.config;
+  std::erase_if(told, [](const IniEntry& entry) { return entry.key == "skirt_height"; });  // -1 of Slic3r: all layers
+  return with_ini(printer != nullptr ? *printer : Config{}, told, print.name).config;
 }
 
 }  // namespace
@@ -347,7 +349,7 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
   }
   std::vector<double> height_mm;
   for (const Slab& slab : scene.slices.slabs) height_mm.push_back(slab.height_mm);
-  if (config.planner == Planner::plain) return in_plain_order(std::move(scene), *rampart, recovered, config);
+  if (config.planner == Planner::plain) return in_plain_order(scene, *rampart, recovered, config);
   const SurfaceVisibility visibility(scene.slices.outlines, height_mm, {.threads = options.threads}, progress);
   const int first = recovered.layers.front().runs.front().tool;
   std::vector<int> first_of_layer = first_extruders(printing_by_layer(scene.slices), first);
@@ -369,7 +371,11 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
   const auto take = [&](int k) {
     if (progress.interrupted()) throw Error("interrupted");
     std::optional<StagedLayer>& own = planned[std::size_t(k)];
-    own->arrive_from(below);
+    if (!own->arrive_from(below))
+      throw Error(
+          fmt::format("{}: layer {}: tools do not change in the order that is planned; such files are not "
+                      "re-planned yet",
+                      print.name, k + 1));
     below = own->last();
     result.push_back(std::move(*own).release());
     own.reset();

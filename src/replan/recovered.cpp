@@ -47,6 +47,8 @@ class Recovery {
       r_.e_of_each_tool = sailfish || makerware;
       r_.says_on_and_off = makerware;
     }
+    says_roles_behind_ = print_.facts.dialect == Dialect::slic3r && text_.find("\n;TYPE:") == text_.npos &&
+                         text_.find("gcode_comments = 1") != text_.npos;
     drawn_back_e5_.resize(std::max<std::size_t>(std::size_t(print_.tools), max_tools));
     for (at_ = 0; at_ < r_.begin; at_ = next_) before_layers();
     begin_layers();
@@ -77,8 +79,11 @@ class Recovery {
     for (const std::string_view mark : words_.layer_begins)
       if (!mark.empty()) first = std::min(first, text_.find(fmt::format("\n{}", mark)));
     if (first == text_.npos)
-      throw Error(fmt::format("{}: it has no {} comments; files of this slicer are not re-planned yet", print_.name,
-                              words_.layer_begins.front()));
+      throw Error(fmt::format("{}: it has no {} comments{}", print_.name, words_.layer_begins.front(),
+                              words_.layer_begins.front() == ";LAYER_CHANGE"
+                                  ? "; say them in the slicer's G-code after layer change (Slic3r: layer_gcode = "
+                                    ";LAYER_CHANGE)"
+                                  : ", so that its layers are not known"));
     r_.begin = first + 1;
     std::size_t last = 0;
     for (std::size_t i = 0; i < print_.moves.size(); ++i) {
@@ -88,20 +93,25 @@ class Recovery {
     }
     if (last < r_.begin)
       refuse(last, fmt::format("nothing is printed after the first {}", words_.layer_begins.front()));
-    r_.end = std::min(text_.find('\n', last), text_.size() - 1) + 1;
+    r_.end = line_end(last);
+    // A wipe goes over the road before it, and so with it.
+    for (std::size_t at = r_.end; text_.substr(at, 1) == "G" || text_.substr(at, 5) == ";WIPE"; at = line_end(at))
+      if (text_.substr(at, 9) == ";WIPE_END") r_.end = line_end(at);
     if (words_.travel == "G0") take_last_way();
   }
 
   /// What the last nozzle still wipes along belongs to the layers, for it is no way from anywhere else.
   void take_last_way() {
-    for (std::size_t stop = r_.end; stop < text_.size(); ++stop) {
-      const std::string_view rest = text_.substr(stop);
+    while (true) {
+      const std::string_view rest = text_.substr(r_.end);
       const bool travels = rest.starts_with("G0 ") && rest.substr(0, rest.find('\n')).find('Z') == rest.npos;
       if (!travels && !rest.starts_with(words_.elapsed)) return;
-      stop = std::min(text_.find('\n', stop), text_.size() - 1);
-      r_.end = stop + 1;
+      r_.end = line_end(r_.end);
     }
   }
+
+  /// Behind the line that begins at or contains this byte.
+  std::size_t line_end(std::size_t at) const { return std::min(text_.find('\n', at), text_.size() - 1) + 1; }
 
   /// As the file leaves it so far.
   std::uint32_t state_index() {
@@ -166,6 +176,11 @@ class Recovery {
     for (const GcodeEvent& e : print_.events)
       if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) tool_ = e.tool;
     r_.begin_tool = tool_;
+    // A wall of a rampart says what it is; what follows must say again that it does not.
+    if (print_.facts.dialect == Dialect::slic3r)
+      for (const auto& [key, line] :
+           {std::pair(type_key, ";TYPE:Unknown"), {width_key, ";WIDTH:0"}, {height_key, ";HEIGHT:0"}})
+        state_.try_emplace(std::string(key), line);
     r_.states.push_back(state_);
     state_.try_emplace("fan", "M107");
     if (words_.begins_drawn_back) take_first_pushes();
@@ -268,7 +283,7 @@ class Recovery {
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
     if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
       refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
-    if (moved_among_notes_ > 0) stand_ = way_.back(), way_.pop_back();
+    if (stands_aside_ && !way_.empty()) stand_ = way_.back(), way_.pop_back();
     leave_run();
     has_tool_ = true;
     breaks_ = true;
@@ -361,7 +376,7 @@ class Recovery {
       refuse(at_, "a wipe tower that begins while filament is drawn back");
     FixedLines fixed{.lines = {}, .lays = true, .state = state_index(), .drawn_back_e5 = drawn_back_e5_};
     close_gap(from);
-    const std::size_t end = std::min(text_.find('\n', print_.moves[last].offset), text_.size() - 1) + 1;
+    const std::size_t end = line_end(print_.moves[last].offset);
     for (;; at_ = next_) {
       read_line();
       count_e();
@@ -390,6 +405,11 @@ class Recovery {
       run().notes.emplace_back(note.text);
     }
     gap_.clear();
+    if (says_roles_behind_) {
+      const std::string type = fmt::format(";TYPE:{}", role_name(move.role));
+      state_changed_ = state_changed_ || state_[std::string(type_key)] != type;
+      state_[std::string(type_key)] = type;
+    }
     const std::uint32_t state = state_index();
     run().roads.push_back({.to = {to_um(move.to_mm.x), to_um(move.to_mm.y)},
                            .filament_e5 = to_e5(move.filament_mm),
@@ -463,7 +483,6 @@ class Recovery {
     } else {
       for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
     }
-    const std::size_t way_places = way_.size();
     r_.layers.back().runs.push_back({.tool = tool_,
                                      .from = {to_um(from.x), to_um(from.y)},
                                      .roads = {},
@@ -472,7 +491,7 @@ class Recovery {
                                      .leaving = {},
                                      .drawn_back = drawn_back_ || has_tool_,
                                      .back_after = has_tool_ ? 0 : back_after_,
-                                     .forward_after = forward_after_.value_or(way_places)});
+                                     .forward_after = forward_after_.value_or(~std::size_t{0})});
     if (!run().way.empty()) run().way.pop_back();  // its start
     way_.clear();
     gap_.clear();
@@ -528,7 +547,9 @@ class Recovery {
       std::vector<std::string>& header = r_.layers[m.layer].header;
       const auto known = r_.leave.find(m.from_tool);
       std::size_t plain = header.size();
-      while (plain > 0 && !begins_with_one_of(header[plain - 1], words_.header_ends)) --plain;
+      while (plain > 0 && !begins_with_one_of(header[plain - 1], words_.header_ends) &&
+             !begins_with_one_of(header[plain - 1], words_.layer_begins))
+        --plain;
       const std::size_t length = known != r_.leave.end() ? known->second.size() : header.size() - plain;
       const auto rest = header.end() - std::ptrdiff_t(std::min(length, header.size()));
       std::vector<std::string> leave(rest, header.end());
@@ -555,6 +576,7 @@ class Recovery {
     if (r_.states.back() != state_) r_.states.push_back(state_);
     r_.end_state = std::uint32_t(r_.states.size() - 1);
     r_.end_count_e5 = count_e5(tool_);
+    r_.end_drawn_back_e5 = drawn_back_e5_[std::size_t(tool_)];
     r_.end_feed_mm_min = feed_;
     for (std::size_t k = 1; k < r_.layers.size(); ++k)
       if (r_.layers[k].z_mm <= r_.layers[k - 1].z_mm + same_height_mm)
@@ -593,6 +615,7 @@ class Recovery {
   bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false, drawn_back_ = false;
   bool travelled_after_tool_ = false;
   int moved_among_notes_ = 0;
+  bool says_roles_behind_ = false;  // roads say behind them what they are: verbose comments of Slic3r
   bool stands_aside_ = false;       // at changes of tools: the file's ooze_prevention
   std::optional<FilePoint> stand_;  // where it does so this time
   std::size_t back_after_ = 0;

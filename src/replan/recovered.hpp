@@ -58,17 +58,17 @@ struct FixedLines {
 struct RecoveredRun {
   int tool = 0;
   FilePoint from;
-  std::vector<RunRoad> roads;             // at least one, or
-  std::optional<FixedLines> fixed = {};   // none
-  std::vector<std::string> notes;         // comments that stand before it
-  std::vector<FilePoint> way;             // passed on the way here in the file
-  std::vector<FilePoint> leaving;         // passed after it before the tool or the layer changes
-  std::vector<FilePoint> wipe_from = {};  // passed before its wipe
-  std::vector<WipeMove> wipe = {};        // after it
-  std::int64_t back_before_wipe_e5 = 0;   // drawn back on the spot before
-  bool drawn_back = false;                // on the way here,
-  std::size_t back_after = 0;             // where so many places of the way were passed,
-  std::size_t forward_after = 0;          // and pushed forward again after so many
+  std::vector<RunRoad> roads;                   // at least one, or
+  std::optional<FixedLines> fixed = {};         // none
+  std::vector<std::string> notes;               // comments that stand before it
+  std::vector<FilePoint> way;                   // passed on the way here in the file
+  std::vector<FilePoint> leaving;               // passed after it before the tool or the layer changes
+  std::vector<FilePoint> wipe_from = {};        // passed before its wipe
+  std::vector<WipeMove> wipe = {};              // after it
+  std::int64_t back_before_wipe_e5 = 0;         // drawn back on the spot before
+  bool drawn_back = false;                      // on the way here,
+  std::size_t back_after = 0;                   // where so many places of the way were passed,
+  std::size_t forward_after = ~std::size_t{0};  // and pushed forward again after so many; else where it ends
 };
 
 struct RecoveredLayer {
@@ -79,7 +79,8 @@ struct RecoveredLayer {
 };
 
 struct RecoveredPrint {
-  std::size_t begin = 0, end = 0;  // of the layers in the text, bytes: what lies outside stays as it is
+  std::size_t begin = 0, end = 0;  // of the layers in the text, bytes: what lies outside stays as it is; the wipe after
+                                   // the last road lies inside
   bool prints_after_end = false;   // more of a tower or shield
   std::vector<RecoveredLayer> layers;
   std::vector<ModalState> states;
@@ -96,6 +97,7 @@ struct RecoveredPrint {
   std::vector<std::int64_t> begin_drawn_back_e5;  // of each tool
   std::vector<std::int64_t> begin_count_e5;       // of E, of each tool
   std::int64_t end_count_e5 = 0;                  // of the last one
+  std::int64_t end_drawn_back_e5 = 0;             // by a wipe after the last road
   double end_feed_mm_min = 0;
   std::string progress_line;      // the first M73 among the layers, which are told anew; empty: there are none
   std::size_t elapsed_lines = 0;  // likewise, of the time so far

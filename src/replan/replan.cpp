@@ -13,6 +13,7 @@
 #include "reader/read.hpp"
 #include "replan/cura.hpp"
 #include "replan/dialect_words.hpp"
+#include "replan/found_roles.hpp"
 #include "replan/heaters.hpp"
 #include "replan/kept_shield.hpp"
 #include "replan/planning.hpp"
@@ -34,8 +35,8 @@ void require_known_dialect(const GcodePrint& print) {
   if (words_of(print.facts.dialect) != nullptr) return;
   if (print.facts.dialect == Dialect::cleancolor)
     throw Error(fmt::format("{}: cleancolor made it, so it is planned already", print.name));
-  throw Error(fmt::format("{}: made by {}; only files of PrusaSlicer and Cura are re-planned so far", print.name,
-                          producer_of(print)));
+  throw Error(fmt::format("{}: made by {}; only files of PrusaSlicer, Slic3r and Cura are re-planned so far",
+                          print.name, producer_of(print)));
 }
 
 std::string header_line(const ReplanRequest& request) {
@@ -124,6 +125,9 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
     return result;
   }
   require_known_dialect(print);
+  const bool finds_roles = print.facts.dialect == Dialect::slic3r && !tells_roles(print);
+  if (finds_roles && request.removes_shield)
+    throw Error(fmt::format("{}: it does not say which roads are a shield; slice without it", print.name));
   Config config = planning_config(print, machine, request.printer ? &*request.printer : nullptr);
   if (request.protection == ReplanProtection::none || request.keeps_order) config.rampart = RampartShape::off;
   if (request.protection != ReplanProtection::full) config.planner = Planner::plain;
@@ -132,15 +136,17 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
         fmt::format("{}: the file does not say how large the bed is; {:g} mm around the print are taken to be "
                     "free for the rampart: name the printer (--printer) to be sure",
                     print.name, cura_free_mm));
-  RecoveredPrint recovered = recovered_print(print);
+  const GcodePrint with_roles = finds_roles ? with_found_roles(print, machine) : GcodePrint{};
+  const GcodePrint& source = finds_roles ? with_roles : print;
+  RecoveredPrint recovered = recovered_print(source);
   std::vector<double> removed_mm;
-  if (request.removes_shield) removed_mm = remove_shield(recovered, print);
+  if (request.removes_shield) removed_mm = remove_shield(recovered, source);
   for (std::size_t t = 0; t < removed_mm.size(); ++t)
     result.removed_mm3 += removed_mm[t] * filament_area_mm2(machine, int(t));
   const std::vector<Layer> layers = planned_layers(
-      recovered, print, machine, config, {.plans = !request.keeps_order, .threads = request.threads}, progress);
+      recovered, source, machine, config, {.plans = !request.keeps_order, .threads = request.threads}, progress);
   progress.advance("writing", 0);
-  result.text = written(recovered, print, machine, config, layers,
+  result.text = written(recovered, source, machine, config, layers,
                         {.as_in_file = request.keeps_order, .header = header_line(request)});
   GcodePrint after = read_gcode(result.text, print.name);
   const DialectWords& words = *words_of(print.facts.dialect);

@@ -165,6 +165,8 @@ class Writing {
       change_tool(recovered_.end_tool);
       if (recovered_.prints_after_end) push_forward();
     }
+    wipe(recovered_.end_drawn_back_e5);
+    out_.draw_back(recovered_.end_drawn_back_e5);
     out_.set(recovered_.states[recovered_.end_state]);
     std::string text = out_.finish();
     text += print_.text->substr(recovered_.end);
