@@ -26,6 +26,7 @@ class Emitter {
 
   int tool() const { return tool_; }
   bool is_known() const { return known_; }
+  bool is_lifted() const { return lift_um_ > 0; }
   FilePoint at() const { return at_; }
   const ModalState& state() const { return state_; }
 

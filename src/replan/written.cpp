@@ -306,16 +306,21 @@ class Writing {
     }
     for (std::size_t i = 0; i < run.way.size(); ++i) {
       if (run.drawn_back && i == run.back_after) draw_back();
-      if (i == run.forward_after) push_forward();
+      if (i == run.forward_after) push_forward_on_the_way();
       out_.travel(run.way[i]);
     }
     if (run.drawn_back && run.back_after >= run.way.size()) draw_back();
-    if (run.forward_after == run.way.size()) push_forward();
+    if (run.forward_after == run.way.size()) push_forward_on_the_way();
     out_.travel(start);
   }
 
   void push_forward() {
     out_.lower();
+    out_.push_forward();
+  }
+
+  void push_forward_on_the_way() {
+    if (out_.is_lifted()) out_.lower();
     out_.push_forward();
   }
 
