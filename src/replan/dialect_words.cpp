@@ -21,6 +21,7 @@ constexpr DialectWords cura = {.layer_begins = {";LAYER:", {}},
                                .begins_drawn_back = true,
                                .tower_is_roads = true,
                                .times_heaters = true,
+                               .lifts_at_change = true,
                                .pushes_at_change = true};
 
 }  // namespace

@@ -26,6 +26,7 @@ struct DialectWords {
   bool begins_drawn_back = false;   // a tool is taken to be drawn back where it is used first
   bool tower_is_roads = false;      // a prime tower is roads like others; else its pieces stay to the letter
   bool times_heaters = false;       // by how long a tool idles: replan/heaters.hpp
+  bool lifts_at_change = false;     // also where it does not lift otherwise
   bool pushes_at_change = false;    // a new tool lowers and pushes part of its filament forward before it travels
 };
 

@@ -290,7 +290,8 @@ class Recovery {
     tool_in_gap_ = gap_.size();
     from_tool_ = tool_;
     tool_ = tool;
-    if (!r_.layers.empty()) r_.change_lift_mm = std::max(r_.change_lift_mm, rise_mm_);
+    if (words_.lifts_at_change && !has_layer_mark_ && !r_.layers.empty())
+      r_.change_lift_mm = std::max(r_.change_lift_mm, rise_mm_);
     gap_.push_back({raw_, at_, false});
   }
 
