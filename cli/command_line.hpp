@@ -97,6 +97,7 @@ struct ReplanCommand : MachineOptions {
   bool keep_going = false;
   ReplanProtection protection = ReplanProtection::full;
   bool keeps_order = false;  // and travel
+  bool removes_shield = false;
   int threads = 0;
   bool quiet = false;
 };

@@ -66,6 +66,7 @@ void replan(const ReplanCommand& command, Console& console, std::ostream& out) {
                                      {.printer = request.printer,
                                       .protection = command.protection,
                                       .keeps_order = command.keeps_order,
+                                      .removes_shield = command.removes_shield,
                                       .threads = threads},
                                      progress);
   if (!result.changed) progress.warn(fmt::format("{}: it was re-planned before, and stays as it is", print.name));
@@ -82,6 +83,8 @@ void replan(const ReplanCommand& command, Console& console, std::ostream& out) {
   if (!command.quiet && result.changed)
     out << fmt::format("{}: {:.0f} min instead of {:.0f} min, by this program's estimate\n", target.string(),
                        result.time_s / 60, result.old_time_s / 60);
+  if (!command.quiet && result.removed_mm3 > 0)
+    out << fmt::format("{}: the shield is gone, {:.0f} mm3 of plastic\n", target.string(), result.removed_mm3);
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ const char* const replan_description =
     "\n"
     "Every path is printed as it was sliced: its plastic, speed, fan and acceleration. New are the order of the "
     "paths,\n"
-    "where loops begin, the ways between them, and the rampart around the part. So far for files of PrusaSlicer with\n"
-    "several nozzles. What cannot be re-planned for sure is refused, with the reason; the result is read again and\n"
-    "compared with the file before it is written.\n"
+    "where loops begin, the ways between them, and the rampart around the part. So far for files of PrusaSlicer and\n"
+    "Cura with several nozzles. What cannot be re-planned for sure is refused, with the reason; the result is read\n"
+    "again and compared with the file before it is written.\n"
     "\n"
     "Where the nozzles are: --nozzle-offset, else --printer, else the file, else a guess that is warned of.\n";
 
@@ -57,6 +57,10 @@ CLI::App* add_replan(CLI::App& program, ReplanTexts& texts) {
       ->type_name("plan|keep")
       ->group(group);
   replan->add_option("--travel", texts.travel, "ways between the paths")->type_name("plan|keep")->group(group);
+  replan
+      ->add_flag("--remove-shield", command.removes_shield,
+                 "take away a skirt as high as the print; the rampart takes its place")
+      ->group(group);
   group = "Output";
   replan->add_option("-o,--output", command.output, "file to write")->type_name("FILE.gcode")->group(group);
   replan->add_flag("--post-process", command.post_process, "edit the file in place, as slicers ask of their scripts")

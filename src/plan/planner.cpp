@@ -230,6 +230,16 @@ void PlannedLayer::arrive_from(const Layer& below) {
   for (Vec2& p : path.travel) p = p + offset_mm(path);
 }
 
+std::vector<Vec2> PlannedLayer::way(int extruder, Vec2 from_mm, Vec2 to_mm) const {
+  const auto hangs = [&](const TravelCost::Nozzle& n) { return n.extruder == extruder; };
+  if (!first_ || std::ranges::none_of(first_->cost.nozzles(), hangs)) return {};
+  const Vec2 offset = config_->extruders[std::size_t(extruder)].nozzle_offset_mm;
+  std::vector<Vec2> between =
+      clearest_way_between(first_->roads, first_->cost, extruder, from_mm - offset, to_mm - offset, first_->longest_mm);
+  for (Vec2& p : between) p = p + offset;
+  return between;
+}
+
 std::size_t PlannedLayer::begin_at(std::uint32_t entry) {
   assert(layer_.paths.size() >= first_->begin.size());  // no refill among them: there is no wall
   const Run& run = *first_;

@@ -48,6 +48,10 @@ class PlannedLayer {
   /// after it are begun anew where the way and all that follows cost least (plan/tour.hpp).
   void arrive_from(const Layer& below);
 
+  /// The places between of a way of that nozzle on which none hangs over another colour, if there is one; all where the
+  /// nozzle's plastic would lie.  Requires: not released.
+  std::vector<Vec2> way(int extruder, Vec2 from_mm, Vec2 to_mm) const;
+
   /// What the layer as planned is predicted to spoil, the way to its first path aside.  Requires: not released; idle
   /// nozzles stay at print height.
   LayerForecast forecast() const;

@@ -19,8 +19,9 @@ void put(std::string& text, char letter, std::int64_t value) {
 
 }  // namespace
 
-Emitter::Emitter(const RecoveredPrint& recovered, const Config& config, std::string start)
+Emitter::Emitter(const RecoveredPrint& recovered, const DialectWords& words, const Config& config, std::string start)
     : recovered_(recovered),
+      words_(words),
       config_(config),
       text_(std::move(start)),
       state_(recovered.states[recovered.begin_state]),
@@ -42,6 +43,10 @@ void Emitter::set(const ModalState& to) {
   for (const auto& [key, text] : to) state_[key] = text;
 }
 
+void Emitter::forget(std::string_view key) {
+  if (const auto found = state_.find(key); found != state_.end()) state_.erase(found);
+}
+
 void Emitter::header(std::span<const std::string> all) {
   for (const std::string& text : all) {
     line(text);
@@ -59,13 +64,13 @@ void Emitter::put_feed(double feed_mm_min) {
 }
 
 void Emitter::put_e(std::int64_t delta_e5) {
-  count_e5_ += delta_e5;
-  put<5>(text_, 'E', recovered_.relative_e ? delta_e5 : count_e5_);
+  count_e5() += delta_e5;
+  put<5>(text_, 'E', recovered_.relative_e ? delta_e5 : count_e5());
 }
 
 void Emitter::travel(FilePoint to) {
   if (known_ && to == at_) return;
-  text_ += "G1";
+  text_ += words_.travel;
   if (!known_ || to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);
   if (!known_ || to.y_um != at_.y_um) put<3>(text_, 'Y', to.y_um);
   put_feed(config_.travel_speed_mm_s * 60);
@@ -103,9 +108,9 @@ void Emitter::lower() {
 }
 
 void Emitter::zero_count() {
-  if (recovered_.relative_e) return;
+  if (recovered_.relative_e || recovered_.e_of_each_tool) return;
   line("G92 E0");
-  count_e5_ = 0;
+  count_e5() = 0;
 }
 
 void Emitter::draw_back(std::int64_t to_e5) {
@@ -115,18 +120,20 @@ void Emitter::draw_back(std::int64_t to_e5) {
   put_e(-more);
   put_feed(extruder().retract_speed_mm_s * 60);
   end_line();
-  drawn_back_e5() += more;
-  zero_count();
+  back_e5() += more;
+  if (recovered_.says_on_and_off) line("M103");
+  if (words_.zeroes_e) zero_count();
 }
 
-void Emitter::push_forward() {
-  if (drawn_back_e5() <= 0) return;
+void Emitter::push_forward(std::int64_t to_e5) {
+  if (drawn_back_e5() <= to_e5) return;
   const Extruder& e = extruder();
+  if (recovered_.says_on_and_off) line("M101");
   text_ += "G1";
-  put_e(drawn_back_e5());
+  put_e(drawn_back_e5() - to_e5);
   put_feed(60 * (e.deretract_speed_mm_s > 0 ? e.deretract_speed_mm_s : e.retract_speed_mm_s));
   end_line();
-  drawn_back_e5() = 0;
+  back_e5() = to_e5;
 }
 
 void Emitter::road(FilePoint to, std::int64_t filament_e5, double feed_mm_min) {
@@ -141,23 +148,57 @@ void Emitter::road(FilePoint to, std::int64_t filament_e5, double feed_mm_min) {
   at_ = to;
 }
 
+void Emitter::wipe(FilePoint to, std::int64_t filament_e5, double feed_mm_min) {
+  text_ += "G1";
+  if (to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);
+  if (to.y_um != at_.y_um) put<3>(text_, 'Y', to.y_um);
+  put_e(-filament_e5);
+  put_feed(feed_mm_min);
+  end_line();
+  back_e5() += filament_e5;
+  at_ = to;
+}
+
 void Emitter::change_tool(int tool) {
+  const auto lines_of = [](const auto& changes, int of) {
+    const auto found = changes.find(of);
+    return found == changes.end() ? std::span<const std::string>() : std::span(found->second);
+  };
+  change_tool(tool, lines_of(recovered_.leave, tool_), lines_of(recovered_.enter, tool));
+}
+
+void Emitter::change_tool(int tool, std::span<const std::string> leave, std::span<const std::string> enter) {
   zero_count();
-  if (const auto leave = recovered_.leave.find(tool_); leave != recovered_.leave.end()) lines(leave->second);
-  if (const auto enter = recovered_.enter.find(tool); enter != recovered_.enter.end()) {
-    lines(std::span(enter->second).first(1));
+  lines(leave);
+  if (!enter.empty()) {
+    lines(enter.first(1));
     zero_count();
-    lines(std::span(enter->second).subspan(1));
+    lines(enter.subspan(1));
   }
   tool_ = tool;
   known_ = z_known_ = false;
   feed_ = -1;
 }
 
+void Emitter::fixed(const FixedLines& all) {
+  if (!all.lays) {
+    const std::span<const std::string> lines = all.lines;
+    return change_tool(all.tool_after, lines.first(all.tool_at), lines.subspan(all.tool_at));
+  }
+  assert(recovered_.relative_e);
+  header(all.lines);
+  for (std::size_t t = 0; t < drawn_back_e5_.size(); ++t)
+    drawn_back_e5_[t] = std::max<std::int64_t>(0, drawn_back_e5_[t] + all.drawn_back_e5[t]);
+  tool_ = all.tool_after;
+  known_ = z_known_ = false;
+  feed_ = -1;
+}
+
 std::string Emitter::finish() {
-  if (!recovered_.relative_e && count_e5_ != recovered_.end_count_e5) {
+  if (!recovered_.relative_e && count_e5() != recovered_.end_count_e5) {
     text_ += "G92";
-    put<5>(text_, 'E', recovered_.end_count_e5);
+    const char axis = !recovered_.e_of_each_tool ? 'E' : tool_ == 0 ? 'A' : 'B';
+    put<5>(text_, axis, recovered_.end_count_e5);
     end_line();
   }
   if (recovered_.end_feed_mm_min > 0 && std::llround(recovered_.end_feed_mm_min * 1e3) != feed_) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/config.hpp"
+#include "replan/dialect_words.hpp"
 #include "replan/recovered.hpp"
 
 namespace cleancolor {
@@ -21,16 +22,18 @@ namespace cleancolor {
 class Emitter {
  public:
   /// As the file leaves the printer where its layers begin.
-  Emitter(const RecoveredPrint& recovered, const Config& config, std::string start);
+  Emitter(const RecoveredPrint& recovered, const DialectWords& words, const Config& config, std::string start);
 
   int tool() const { return tool_; }
   bool is_known() const { return known_; }
+  bool is_lifted() const { return lift_um_ > 0; }
   FilePoint at() const { return at_; }
   const ModalState& state() const { return state_; }
 
   void line(std::string_view text);
   void lines(std::span<const std::string> all);
   void set(const ModalState& to);
+  void forget(std::string_view key);  // it is told anew
 
   /// Lines that may be modal ones: the state follows.
   void header(std::span<const std::string> all);
@@ -39,12 +42,19 @@ class Emitter {
   void set_z(double z_mm);  // of printing
   void lift(double by_mm);
   void lower();
-  void draw_back(std::int64_t to_e5);  // by so much in all
-  void push_forward();
+  void draw_back(std::int64_t to_e5);         // by so much in all
+  void push_forward(std::int64_t to_e5 = 0);  // until so much is still drawn back
   void road(FilePoint to, std::int64_t filament_e5, double feed_mm_min);
 
   /// The lines of the file; afterwards the place is told anew.
   void change_tool(int tool);
+
+  /// The lines as they are; afterwards the place is told anew.  Requires: the tool that the lines begin with is in use.
+  void fixed(const FixedLines& lines);
+
+  /// Drawing back on the way.
+  void wipe(FilePoint to, std::int64_t filament_e5, double feed_mm_min);
+  std::int64_t drawn_back_e5() const { return drawn_back_e5_[std::size_t(tool_)]; }
 
   /// E and speed as the rest of the file takes them for given.
   std::string finish();
@@ -55,10 +65,13 @@ class Emitter {
   void end_line() { text_ += '\n'; }
   void zero_count();
   void move_z(std::int64_t to_um);
-  std::int64_t& drawn_back_e5() { return drawn_back_e5_[std::size_t(tool_)]; }
+  void change_tool(int tool, std::span<const std::string> leave, std::span<const std::string> enter);
+  std::int64_t& count_e5() { return count_e5_[recovered_.e_of_each_tool ? std::size_t(tool_) : 0]; }
+  std::int64_t& back_e5() { return drawn_back_e5_[std::size_t(tool_)]; }
   const Extruder& extruder() const { return config_.extruders[std::size_t(tool_)]; }
 
   const RecoveredPrint& recovered_;
+  const DialectWords& words_;
   const Config& config_;
   std::string text_;
   ModalState state_;
@@ -66,7 +79,7 @@ class Emitter {
   bool known_ = false, z_known_ = false;
   FilePoint at_;
   std::int64_t z_um_ = 0, told_z_um_ = 0, lift_um_ = 0;
-  std::int64_t count_e5_ = 0;
+  std::vector<std::int64_t> count_e5_;
   std::int64_t feed_ = -1;  // 1e-3 mm/min
   std::vector<std::int64_t> drawn_back_e5_;
 };

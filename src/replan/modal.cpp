@@ -40,6 +40,7 @@ std::optional<ModalLine> of_comment(std::string_view comment) {
   if (text.starts_with("TYPE:")) return ModalLine{std::string(type_key)};
   if (text.starts_with("WIDTH:")) return ModalLine{std::string(width_key)};
   if (text.starts_with("HEIGHT:")) return ModalLine{std::string(height_key)};
+  if (text.starts_with("MESH:")) return ModalLine{std::string(mesh_key)};
   if (text.starts_with("printing object ")) return ModalLine{"0 object"};
   if (text.starts_with("stop printing object ")) return ModalLine{"0 object", true};
   return std::nullopt;
@@ -50,6 +51,9 @@ std::optional<ModalLine> of_m(const GcodeLine& line) {
     case 106:
     case 107:
       return ModalLine{line.has_value('P') ? fmt::format("fan {:g}", line['P']) : std::string("fan")};
+    case 126:
+    case 127:
+      return ModalLine{fmt::format("valve{}", letters_in(line, "TP"))};
     case 201:
     case 203:
     case 204:

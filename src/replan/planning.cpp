@@ -17,6 +17,9 @@
 #include "printed/regions.hpp"
 #include "printed/zones.hpp"
 #include "protection.hpp"
+#include "replan/cura.hpp"
+#include "replan/kept_shield.hpp"
+#include "replan/staged_layer.hpp"
 #include "toolpath/roads.hpp"
 
 namespace cleancolor {
@@ -29,7 +32,6 @@ constexpr double same_width_mm = 0.02;
 constexpr double same_speed = 0.02;        // share
 constexpr double crack_mm = 0.05;          // between two colours is no air
 constexpr std::size_t depth_samples = 16;  // places of a loop that are asked how deep it lies
-constexpr std::size_t shield_layers = 5;   // a skirt in more is a shield
 
 struct RefusedOption {
   std::string_view key;
@@ -41,10 +43,7 @@ constexpr RefusedOption refused_options[] = {
     {"single_extruder_multi_material", "filament changes in one nozzle, so that no idle nozzle can ooze"},
     {"use_firmware_retraction", "the firmware draws filament back; switch it off in the slicer"},
     {"use_volumetric_e", "E in mm3 is not re-planned yet; switch it off in the slicer"},
-    {"ooze_prevention", "standby temperatures are not re-planned yet; switch it off, a rampart is added"},
     {"infill_first", "infill before perimeters is not re-planned yet; switch it off in the slicer"},
-    {"wipe", "wiping while retracting is not re-planned yet; switch it off in the slicer"},
-    {"wipe_tower", "prints with a wipe tower are not re-planned yet; slice without it, a rampart is added"},
     {"ironing", "ironing is not re-planned yet; switch it off in the slicer"},
 };
 
@@ -82,10 +81,24 @@ int depth_of(const Path& path, const Zone* zone) {
 
 /// Everything that stages of a print are planned from.
 struct Scene {
-  Slices slices;              // of the part
-  Slices around;              // the same with skirt and brim: what a rampart stands around
-  std::vector<Layer> layers;  // their paths as in the file
+  Slices slices;                         // of the part
+  Slices around;                         // the same with skirt and brim: what a rampart stands around
+  std::vector<Layer> layers;             // their paths as in the file
+  std::vector<std::vector<Stop>> stops;  // of each layer
+  bool has_shield = false;
 };
+
+/// Two points, so that it can be planned; where it goes on from.
+Path path_of_stop(FilePoint at, int tool, int source, double height_mm, const AuditMachine& machine) {
+  constexpr double width_mm = 0.4;
+  Path path;
+  path.extruder = tool;
+  path.source = source;
+  path.island = -1;
+  path.points = {place_mm(at, tool, machine), place_mm({at.x_um + 1, at.y_um}, tool, machine)};
+  path.stretches.push_back({0, {Role::custom, width_mm, height_mm, width_mm * height_mm, 10}});
+  return path;
+}
 
 void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
                    Scene& scene) {
@@ -121,7 +134,27 @@ void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePr
   planned.print_z_mm = layer.z_mm;
   planned.height_mm = layer.height_mm;
   for (std::size_t i = 0; i < layer.runs.size(); ++i) {
+    const RecoveredRun& run = layer.runs[i];
+    if (run.fixed) {
+      planned.paths.push_back(path_of_stop(run.from, run.tool, int(i), layer.height_mm, machine));
+      const FixedLines& fixed = *run.fixed;
+      const int after = fixed.tool_after;
+      Path leaving = path_of_stop(fixed.to, fixed.lays ? after : run.tool, -1, layer.height_mm, machine);
+      leaving.extruder = after;
+      // A change alone leaves the carriage where it is.
+      if (!fixed.lays)
+        for (Vec2& p : leaving.points) p = p - nozzle_offset_mm(machine, run.tool) + nozzle_offset_mm(machine, after);
+      leaving.points.pop_back();
+      scene.stops[k].push_back({int(i), fixed.lays, std::move(leaving)});
+      continue;
+    }
     Path path = path_of(layer.runs[i], int(i), layer.height_mm, print, machine);
+    if (path.road().role == Role::wipe_tower) {  // it stays where it is in the order
+      Path leaving = path;
+      leaving.points = {path.points.back()};
+      leaving.stretches.resize(1);
+      scene.stops[k].push_back({int(i), true, std::move(leaving)});
+    }
     path.island = zone_of(path, zones);
     path.depth = depth_of(path, path.island >= 0 ? &zones[std::size_t(path.island)] : nullptr);
     // Part plastic that lies in no zone waits for nothing, and nothing for it.
@@ -140,24 +173,20 @@ Scene scene_of(const RecoveredPrint& recovered, const GcodePrint& print, const A
       slices->slabs.push_back({.print_z_mm = layer.z_mm, .height_mm = std::clamp(layer.height_mm, 0.01, 5.)});
   }
   scene.layers.resize(count);
+  scene.stops.resize(count);
   parallel_for(int(count), threads, [&](int k) { recover_layer(std::size_t(k), recovered, print, machine, scene); });
+  const auto shield = shield_runs(recovered, print);
+  scene.has_shield = !shield.empty();
+  for (std::size_t k = 0; k < shield.size(); ++k)
+    for (const std::size_t i : shield[k]) scene.layers[k].paths[i] = as_wall(std::move(scene.layers[k].paths[i]));
   return scene;
 }
 
-void require_no_shield(const Scene& scene, const GcodePrint& print) {
-  std::size_t with_skirt = 0;
-  for (std::size_t k = 0; k < scene.layers.size(); ++k) {
-    const std::vector<Path>& paths = scene.layers[k].paths;
-    with_skirt += std::ranges::any_of(paths, [](const Path& p) { return p.road().role == Role::skirt_brim; });
+void require_part(const Scene& scene, const GcodePrint& print) {
+  for (std::size_t k = 0; k < scene.layers.size(); ++k)
     if (scene.slices.outlines[k].empty())
       throw Error(
           fmt::format("{}: layer {} has nothing of the part; such files are not re-planned yet", print.name, k + 1));
-  }
-  if (with_skirt > shield_layers)
-    throw Error(
-        fmt::format("{}: {} layers have a skirt: a shield; slice without it (draft_shield, skirt_height): a "
-                    "rampart is added that wipes nozzles, too",
-                    print.name, with_skirt));
 }
 
 /// As the writer would print it: never faster than the filament allows.
@@ -192,19 +221,29 @@ std::vector<Polygons> reaches(const Scene& scene, const Config& config) {
 }
 
 /// What slicers do without colour protection, to compare.
-std::vector<Layer> in_plain_order(Scene scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
+std::vector<Layer> in_plain_order(Scene& scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
                                   const Config& config) {
   OrderState state{.extruder = recovered.layers.front().runs.front().tool, .at = {}, .seams = {}};
   for (Layer& layer : scene.layers) {
-    layer = with_walls(std::move(layer), rampart, config);
-    order(layer, state, config, rampart.site(layer.index));
+    const std::vector<Stop>& stops = scene.stops[std::size_t(layer.index)];
+    std::vector<Layer> parts = parts_of(with_walls(std::move(layer), rampart, config), stops);
+    layer = parts.front();
+    layer.paths.clear();
+    for (Layer& part : parts) {
+      if (scene.has_shield || !stops.empty()) state.extruder = part.paths.front().extruder;
+      order(part, state, config, rampart.site(layer.index));
+      std::ranges::move(part.paths, std::back_inserter(layer.paths));
+    }
   }
   return std::move(scene.layers);
 }
 
 }  // namespace
 
-Config planning_config(const GcodePrint& print, const AuditMachine& machine, const Config* printer) {
+namespace {
+
+/// The printer's, and over it what the configuration block of the file says.
+Config told_config(const GcodePrint& print, const Config* printer) {
   if (print.facts.config.empty() || print.facts.config_kind.empty())
     throw Error(
         fmt::format("{}: it has no configuration block at its end; it is not known how far filament is drawn "
@@ -218,11 +257,16 @@ Config planning_config(const GcodePrint& print, const AuditMachine& machine, con
     if ((entry.key == "retract_lift_above" || entry.key == "retract_lift_below") && is_on(entry.value))
       throw Error(fmt::format("{}: {} = {}: lifting in some layers only is not re-planned yet; switch it off",
                               print.name, entry.key, entry.value));
-  for (const IniEntry& entry : print.facts.config)
-    if (entry.key == "gcode_flavor" && (entry.value == "sailfish" || entry.value == "makerware"))
-      throw Error(fmt::format("{}: gcode_flavor = {}: it counts E for each tool; that is not re-planned yet",
-                              print.name, entry.value));
-  Config config = with_ini(printer != nullptr ? *printer : Config{}, print.facts.config, print.name).config;
+  std::vector<IniEntry> told = print.facts.config;
+  std::erase_if(told, [](const IniEntry& entry) { return entry.key == "skirt_height"; });  // -1 of Slic3r: all layers
+  return with_ini(printer != nullptr ? *printer : Config{}, told, print.name).config;
+}
+
+}  // namespace
+
+Config planning_config(const GcodePrint& print, const AuditMachine& machine, const Config* printer) {
+  Config config =
+      print.facts.dialect == Dialect::cura ? cura_config(print, machine, printer) : told_config(print, printer);
   const std::size_t nozzles = machine.nozzles.size();
   while (config.extruders.size() < nozzles) config.extruders.push_back(config.extruders.back());
   config.extruders.resize(nozzles);
@@ -280,7 +324,7 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
                                   Config config, const ReplanOptions& options, const Progress& progress) {
   progress.advance("regions", 0);
   Scene scene = scene_of(recovered, print, machine, options.threads);
-  require_no_shield(scene, print);
+  require_part(scene, print);
   if (!options.plans) {
     for (std::size_t k = 0; k < scene.layers.size(); ++k)
       for (std::size_t i = 0; i < scene.layers[k].paths.size(); ++i) {
@@ -291,6 +335,7 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
       }
     return std::move(scene.layers);
   }
+  if (scene.has_shield || recovered.keeps_tools) config.rampart = RampartShape::off;
   const Use use(scene.slices);
   if (use.extruders.size() < 2)
     throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));
@@ -304,29 +349,36 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
   }
   std::vector<double> height_mm;
   for (const Slab& slab : scene.slices.slabs) height_mm.push_back(slab.height_mm);
-  if (config.planner == Planner::plain) return in_plain_order(std::move(scene), *rampart, recovered, config);
+  if (config.planner == Planner::plain) return in_plain_order(scene, *rampart, recovered, config);
   const SurfaceVisibility visibility(scene.slices.outlines, height_mm, {.threads = options.threads}, progress);
   const int first = recovered.layers.front().runs.front().tool;
-  const std::vector<int> first_of_layer = first_extruders(printing_by_layer(scene.slices), first);
+  std::vector<int> first_of_layer = first_extruders(printing_by_layer(scene.slices), first);
+  if (scene.has_shield || recovered.keeps_tools)
+    for (std::size_t k = 0; k < first_of_layer.size(); ++k) first_of_layer[k] = recovered.layers[k].runs.front().tool;
 
   const std::vector<Polygons> reach = reaches(scene, config);
   const int count = int(scene.layers.size());
-  std::vector<std::optional<PlannedLayer>> planned{std::size_t(count)};
+  std::vector<std::optional<StagedLayer>> planned{std::size_t(count)};
   std::vector<Layer> result;
-  Layer below;
+  Path below;
   const auto plan = [&](int k) {
     Layer layer = with_walls(std::move(scene.layers[std::size_t(k)]), *rampart, config);
-    OrderState state{.extruder = first_of_layer[std::size_t(k)], .at = {}, .seams = {}};
-    planned[std::size_t(k)].emplace(std::move(layer), state, config, plan_scene(scene.slices, use, config, *rampart, k),
-                                    visibility);
+    PlanScene around = plan_scene(scene.slices, use, config, *rampart, k);
+    if (scene.has_shield) around.site = {use.hot(k, config), scene.slices.outlines[std::size_t(k)]};
+    planned[std::size_t(k)].emplace(std::move(layer), first_of_layer[std::size_t(k)], scene.stops[std::size_t(k)],
+                                    config, around, visibility);
   };
   const auto take = [&](int k) {
     if (progress.interrupted()) throw Error("interrupted");
-    std::optional<PlannedLayer>& own = planned[std::size_t(k)];
-    own->arrive_from(below);
+    std::optional<StagedLayer>& own = planned[std::size_t(k)];
+    if (!own->arrive_from(below))
+      throw Error(
+          fmt::format("{}: layer {}: tools do not change in the order that is planned; such files are not "
+                      "re-planned yet",
+                      print.name, k + 1));
+    below = own->last();
     result.push_back(std::move(*own).release());
     own.reset();
-    if (!result.back().paths.empty()) below.paths.assign(1, result.back().paths.back());
     progress.advance("planning", double(k + 1) / count);
   };
   run({.count = count, .window = 3 * options.threads + 4, .stages = {{0, plan}}, .consume = take}, options.threads);

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
 #include "base/error.hpp"
 #include "model/text_scan.hpp"
 #include "reader/known_commands.hpp"
+#include "replan/dialect_words.hpp"
 
 namespace cleancolor {
 namespace {
@@ -23,8 +26,8 @@ std::int64_t to_e5(double mm) {
   return std::llround(mm * 1e5);
 }
 
-bool begins_layer(std::string_view line) {
-  return line.starts_with(";LAYER_CHANGE") || line.starts_with(";BEFORE_LAYER_CHANGE");
+bool begins_with_one_of(std::string_view line, const std::array<std::string_view, 2>& prefixes) {
+  return std::ranges::any_of(prefixes, [&](std::string_view p) { return !p.empty() && line.starts_with(p); });
 }
 
 bool is_temperature(const GcodeLine& line) {
@@ -33,10 +36,19 @@ bool is_temperature(const GcodeLine& line) {
 
 class Recovery {
  public:
-  explicit Recovery(const GcodePrint& print) : print_(print), text_(*print.text) {}
+  Recovery(const GcodePrint& print, const DialectWords& words) : print_(print), words_(words), text_(*print.text) {}
 
   RecoveredPrint result() && {
     find_body();
+    for (const IniEntry& entry : print_.facts.config) {
+      const bool sailfish = entry.value == "sailfish", makerware = entry.value == "makerware";
+      if (entry.key == "ooze_prevention") stands_aside_ = entry.value == "1";
+      if (entry.key != "gcode_flavor") continue;
+      r_.e_of_each_tool = sailfish || makerware;
+      r_.says_on_and_off = makerware;
+    }
+    says_roles_behind_ = print_.facts.dialect == Dialect::slic3r && text_.find("\n;TYPE:") == text_.npos &&
+                         text_.find("gcode_comments = 1") != text_.npos;
     drawn_back_e5_.resize(std::max<std::size_t>(std::size_t(print_.tools), max_tools));
     for (at_ = 0; at_ < r_.begin; at_ = next_) before_layers();
     begin_layers();
@@ -64,17 +76,48 @@ class Recovery {
     if (text_.find('\r') != text_.npos)
       refuse(text_.find('\r'), "lines end with CR; save the file with plain line ends (LF)");
     std::size_t first = text_.npos;
-    for (const std::string_view mark : {"\n;LAYER_CHANGE", "\n;BEFORE_LAYER_CHANGE"})
-      first = std::min(first, text_.find(mark));
+    for (const std::string_view mark : words_.layer_begins)
+      if (!mark.empty()) first = std::min(first, text_.find(fmt::format("\n{}", mark)));
     if (first == text_.npos)
-      throw Error(fmt::format("{}: it has no ;LAYER_CHANGE comments; files of this slicer are not re-planned yet",
-                              print_.name));
+      throw Error(fmt::format("{}: it has no {} comments{}", print_.name, words_.layer_begins.front(),
+                              words_.layer_begins.front() == ";LAYER_CHANGE"
+                                  ? "; say them in the slicer's G-code after layer change (Slic3r: layer_gcode = "
+                                    ";LAYER_CHANGE)"
+                                  : ", so that its layers are not known"));
     r_.begin = first + 1;
     std::size_t last = 0;
-    for (std::size_t i = 0; i < print_.moves.size(); ++i)
-      if (lays_plastic(print_, i)) last = print_.moves[i].offset;
-    if (last < r_.begin) refuse(last, "nothing is printed after the first ;LAYER_CHANGE");
-    r_.end = std::min(text_.find('\n', last), text_.size() - 1) + 1;
+    for (std::size_t i = 0; i < print_.moves.size(); ++i) {
+      if (!lays_plastic(print_, i)) continue;
+      r_.prints_after_end = words_.tower_is_roads && is_auxiliary(print_.moves[i].role);
+      if (!r_.prints_after_end) last = print_.moves[i].offset;
+    }
+    if (last < r_.begin)
+      refuse(last, fmt::format("nothing is printed after the first {}", words_.layer_begins.front()));
+    r_.end = line_end(last);
+    // A wipe goes over the road before it, and so with it.
+    for (std::size_t at = r_.end; text_.substr(at, 1) == "G" || text_.substr(at, 5) == ";WIPE"; at = line_end(at))
+      if (text_.substr(at, 9) == ";WIPE_END") r_.end = line_end(at);
+    if (words_.travel == "G0") take_last_way();
+  }
+
+  /// What the last nozzle still wipes along belongs to the layers, for it is no way from anywhere else.
+  void take_last_way() {
+    while (true) {
+      const std::string_view rest = text_.substr(r_.end);
+      const bool travels = rest.starts_with("G0 ") && rest.substr(0, rest.find('\n')).find('Z') == rest.npos;
+      if (!travels && !rest.starts_with(words_.elapsed)) return;
+      r_.end = line_end(r_.end);
+    }
+  }
+
+  /// Behind the line that begins at or contains this byte.
+  std::size_t line_end(std::size_t at) const { return std::min(text_.find('\n', at), text_.size() - 1) + 1; }
+
+  /// As the file leaves it so far.
+  std::uint32_t state_index() {
+    if (state_changed_ && r_.states.back() != state_) r_.states.push_back(state_);
+    state_changed_ = false;
+    return std::uint32_t(r_.states.size() - 1);
   }
 
   /// Index of the move that the line makes; nothing where it makes none.
@@ -90,30 +133,57 @@ class Recovery {
   void count_e() {
     const bool sets = line_.letter == 'G' && line_.number == 92;
     const bool moves = line_.letter == 'G' && line_.number <= 1;
-    if (line_.has_value('E') && (sets || (moves && !r_.relative_e))) count_e5_ = to_e5(line_['E']);
+    const auto counts = [&](char letter, int tool) {
+      if (line_.has_value(letter) && (sets || (moves && !r_.relative_e))) count_e5(tool) = to_e5(line_[letter]);
+    };
+    counts('E', tool_);
+    if (r_.e_of_each_tool) counts('A', 0), counts('B', 1);
     if (moves && line_.has_value('F')) feed_ = line_['F'];
   }
+  std::int64_t& count_e5(int tool) { return count_e5_[r_.e_of_each_tool ? std::size_t(tool) : 0]; }
 
   void move_filament(const GcodeMove& move) {
     std::int64_t& back = drawn_back_e5_[move.feeds];
     back = std::max<std::int64_t>(0, back - to_e5(move.filament_mm));
   }
 
+  /// What a tool pushes forward before its first road, beyond what it has drawn back, it was taken to be drawn back by.
+  void take_first_pushes() {
+    std::vector<char> has_printed(drawn_back_e5_.size(), 0);
+    std::vector<std::int64_t> back_e5 = drawn_back_e5_;
+    for (std::size_t i = move_; i < print_.moves.size(); ++i) {
+      const GcodeMove& move = print_.moves[i];
+      if (has_printed[move.feeds] != 0) continue;
+      if (lays_plastic(print_, i)) {
+        has_printed[move.feeds] = 1;
+        drawn_back_e5_[move.feeds] += std::max<std::int64_t>(0, -back_e5[move.feeds]);
+      } else {
+        back_e5[move.feeds] -= to_e5(move.filament_mm);
+      }
+    }
+  }
+
   void before_layers() {
     read_line();
     if (line_.letter == 'M' && (line_.number == 82 || line_.number == 83)) r_.relative_e = line_.number == 83;
     count_e();
+    if (const auto tool = tool_taken(line_); tool && *tool >= 0 && *tool < max_tools) tool_ = *tool;
     if (const auto what = modal_line(line_)) take(state_, *what, raw_);
     while (move_ < print_.moves.size() && print_.moves[move_].offset < next_) move_filament(print_.moves[move_++]);
   }
 
   void begin_layers() {
-    tool_ = 0;
     for (const GcodeEvent& e : print_.events)
       if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) tool_ = e.tool;
     r_.begin_tool = tool_;
-    if (!state_.contains("fan")) state_["fan"] = "M107";
+    // A wall of a rampart says what it is; what follows must say again that it does not.
+    if (print_.facts.dialect == Dialect::slic3r)
+      for (const auto& [key, line] :
+           {std::pair(type_key, ";TYPE:Unknown"), {width_key, ";WIDTH:0"}, {height_key, ";HEIGHT:0"}})
+        state_.try_emplace(std::string(key), line);
     r_.states.push_back(state_);
+    state_.try_emplace("fan", "M107");
+    if (words_.begins_drawn_back) take_first_pushes();
     r_.begin_drawn_back_e5 = drawn_back_e5_;
     r_.begin_count_e5 = count_e5_;
     breaks_ = true;
@@ -121,15 +191,17 @@ class Recovery {
 
   void in_layers() {
     read_line();
+    if (raw_.starts_with(";TYPE:Wipe tower")) return tower();
     count_e();
     if (line_.letter == 0 && line_.word.empty() && line_.present == 0) return comment();
     if (const auto what = modal_line(line_)) return set(*what);
     if (line_.letter == 'G') return command_g();
-    if (line_.letter == 'T') return tool_word();
+    if (const auto tool = tool_taken(line_)) return change_to(*tool);
     if (line_.letter == 'M' && line_.number == 73) {
-      ++r_.progress_lines;
+      if (r_.progress_line.empty()) r_.progress_line = raw_;
       return;
     }
+    if (r_.says_on_and_off && line_.letter == 'M' && (line_.number == 101 || line_.number == 103)) return;
     if (line_.letter == 0 && line_.word.empty())
       refuse(at_, "a move without its G command among the layers is not re-planned");
     command();
@@ -141,9 +213,14 @@ class Recovery {
   }
 
   void comment() {
-    if (!line_.has_comment) return;
-    if (begins_layer(raw_)) {
-      if (has_layer_mark_ && raw_.starts_with(";BEFORE_LAYER_CHANGE")) refuse(at_, "a layer without roads");
+    if (!line_.has_comment || raw_ == ";WIPE_START" || raw_ == ";WIPE_END") return;
+    if (!words_.elapsed.empty() && raw_.starts_with(words_.elapsed)) {
+      ++r_.elapsed_lines;
+      return;
+    }
+    if (begins_with_one_of(raw_, words_.layer_begins)) {
+      const bool may_follow = !words_.layer_begins[1].empty() && !raw_.starts_with(words_.layer_begins[1]);
+      if (has_layer_mark_ && !may_follow) refuse(at_, "a layer without roads");
       if (!has_layer_mark_) mark_layer();
       gap_.push_back({raw_, at_, false});
       return;
@@ -164,16 +241,19 @@ class Recovery {
   }
 
   /// What was driven since the last road is no way to the next.
-  void leave_run() {
+  void leave_run(std::size_t places) {
+    const auto to = way_.begin() + std::ptrdiff_t(std::min(places, way_.size()));
     if (!r_.layers.empty() && !r_.layers.back().runs.empty())
-      run().leaving.insert(run().leaving.end(), way_.begin(), way_.end());
-    way_.clear();
-    back_after_ = 0;
+      run().leaving.insert(run().leaving.end(), way_.begin(), to);
+    back_after_ -= std::min(back_after_, std::size_t(to - way_.begin()));
+    if (forward_after_) *forward_after_ -= std::min(*forward_after_, std::size_t(to - way_.begin()));
+    way_.erase(way_.begin(), to);
   }
+  void leave_run() { leave_run(way_.size()); }
 
   void mark_layer() {
     if (has_tool_) refuse(at_, "a layer begins after a tool change without a road between them");
-    leave_run();
+    leave_run(words_.rises_before_layer ? rises_after_.value_or(way_.size()) : way_.size());
     has_layer_mark_ = true;
     left_header_ = false;
     mark_in_gap_ = gap_.size();
@@ -181,6 +261,10 @@ class Recovery {
   }
 
   void command() {
+    const bool asks = line_.letter == 'M' && line_.number == 105;  // how hot it is
+    const bool heats = line_.letter == 'M' && (line_.number == 104 || line_.number == 109);
+    if (words_.times_heaters && (asks || heats)) return;
+    if (words_.times_heaters && has_tool_ && line_.letter == 'M' && line_.number == 116) return keep(true);
     if (is_temperature(line_)) {
       const bool bed = line_.number == 140 || line_.number == 190;
       if (!bed && !line_.has_value('T') && print_.tools > 1)
@@ -194,17 +278,20 @@ class Recovery {
     keep(true);
   }
 
-  void tool_word() {
-    if (line_.number < 0 || line_.number >= max_tools) refuse(at_, "a tool change that is not understood");
+  void change_to(int tool) {
+    if (tool < 0 || tool >= max_tools) refuse(at_, "a tool change that is not understood");
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
-    if (moved_among_notes_)
+    if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
       refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
+    if (stands_aside_ && !way_.empty()) stand_ = way_.back(), way_.pop_back();
     leave_run();
     has_tool_ = true;
     breaks_ = true;
     tool_in_gap_ = gap_.size();
     from_tool_ = tool_;
-    tool_ = line_.number;
+    tool_ = tool;
+    if (words_.lifts_at_change && !has_layer_mark_ && !r_.layers.empty())
+      r_.change_lift_mm = std::max(r_.change_lift_mm, rise_mm_);
     gap_.push_back({raw_, at_, false});
   }
 
@@ -229,21 +316,85 @@ class Recovery {
   }
 
   void go(const GcodeMove& move, Vec3 from) {
-    breaks_ = true;
     const bool across = from.x != move.to_mm.x || from.y != move.to_mm.y || (!move.known_start && move.names_xy);
+    if (!breaks_ && move.names_xy && !across && move.filament_mm > 0) {  // a road too short to be told
+      run().roads.back().filament_e5 += to_e5(move.filament_mm);
+      return;
+    }
+    breaks_ = true;
     if (across && has_tool_) travelled_after_tool_ = true;
-    if (across && !has_tool_ && !gap_.empty()) moved_among_notes_ = true;
-    if (move.filament_mm != 0 && across)
-      refuse(at_, "filament is drawn back on the way (wipe while retracting); switch off 'wipe' in the slicer");
+    if (move.filament_mm < 0 && across) return wipe(move);
+    if (move.filament_mm > 0 && across) refuse(at_, "filament is pushed on the way");
+    if (across && !has_tool_ && !gap_.empty()) ++moved_among_notes_;
     if (has_layer_mark_) left_header_ = left_header_ || across;
+    if (move.to_mm.z != from.z && !rises_after_) rises_after_ = way_.size();
+    if (!r_.layers.empty()) rise_mm_ = std::max(rise_mm_, move.to_mm.z - r_.layers.back().z_mm);
     if (move.filament_mm > 0) {
       const std::int64_t beyond = to_e5(move.filament_mm) - drawn_back_e5_[move.feeds];
       if (beyond > rounding_e5) refuse(at_, "plastic is pushed out on the spot, more than was drawn back");
     }
     if (move.filament_mm < 0 && !drawn_back_) drawn_back_ = true, back_after_ = way_.size();
-    if (move.feeds != move.tool) refuse(at_, "filament of another tool than the one in use is moved");
+    if (line_.has('A') || line_.has('B') || move.feeds != move.tool)
+      refuse(at_, "filament of another tool than the one in use is moved");
     move_filament(move);
+    if (move.filament_mm > 0 && !forward_after_ && drawn_back_e5_[move.feeds] <= rounding_e5)
+      forward_after_ = way_.size();
     if (across) way_.push_back({to_um(move.to_mm.x), to_um(move.to_mm.y)});
+  }
+
+  /// Drawing back on the way, over what was just printed.
+  void wipe(const GcodeMove& move) {
+    const bool follows = !has_tool_ && !r_.layers.empty() && !r_.layers.back().runs.empty() && !run().fixed;
+    if (!follows || move.feeds != move.tool) refuse(at_, "filament is drawn back on the way, but not after a road");
+    if (run().wipe.empty()) {
+      run().wipe_from = std::move(way_);
+      run().back_before_wipe_e5 = drawn_back_e5_[move.feeds];
+    } else if (!way_.empty()) {
+      refuse(at_, "filament is drawn back on the way, but not after a road");
+    }
+    way_.clear();
+    run().wipe.push_back({{to_um(move.to_mm.x), to_um(move.to_mm.y)}, -to_e5(move.filament_mm), feed_});
+    move_filament(move);
+    drawn_back_ = true;
+    back_after_ = 0;
+  }
+
+  /// A piece of a wipe tower: all from its first comment to its last road stays as it is.
+  void tower() {
+    if (!r_.relative_e) refuse(at_, "a wipe tower with absolute E is not re-planned; switch on relative E");
+    std::size_t last = 0, i = move_;
+    while (i < print_.moves.size() && print_.moves[i].offset < at_) ++i;
+    if (i == 0 || has_tool_) refuse(at_, "a wipe tower that begins with a tool change is not re-planned");
+    const Vec3 from = print_.moves[i - 1].to_mm;
+    for (; i < print_.moves.size(); ++i) {
+      if (!lays_plastic(print_, i)) continue;
+      const GcodeMove& move = print_.moves[i];
+      if (move.role != Role::wipe_tower || std::abs(move.to_mm.z - from.z) > same_height_mm) break;
+      last = i;
+    }
+    if (last == 0) return comment();  // it says so, and lays none
+    if (drawn_back_e5_[std::size_t(tool_)] > rounding_e5)
+      refuse(at_, "a wipe tower that begins while filament is drawn back");
+    FixedLines fixed{.lines = {}, .lays = true, .state = state_index(), .drawn_back_e5 = drawn_back_e5_};
+    close_gap(from);
+    const std::size_t end = line_end(print_.moves[last].offset);
+    for (;; at_ = next_) {
+      read_line();
+      count_e();
+      fixed.lines.emplace_back(raw_);
+      if (const auto what = modal_line(line_)) set(*what);
+      if (const auto tool = tool_taken(line_)) tool_ = *tool;
+      for (; move_ < print_.moves.size() && print_.moves[move_].offset < next_; ++move_)
+        move_filament(print_.moves[move_]);
+      if (next_ >= end) break;
+    }
+    for (std::size_t t = 0; t < drawn_back_e5_.size(); ++t)
+      fixed.drawn_back_e5[t] = drawn_back_e5_[t] - fixed.drawn_back_e5[t];
+    const Vec3 to = print_.moves[last].to_mm;
+    fixed.tool_after = tool_;
+    fixed.to = {to_um(to.x), to_um(to.y)};
+    run().fixed = std::move(fixed);
+    r_.keeps_tools = breaks_ = true;
   }
 
   void lay(std::size_t index, const GcodeMove& move, Vec3 from) {
@@ -255,24 +406,28 @@ class Recovery {
       run().notes.emplace_back(note.text);
     }
     gap_.clear();
-    if (state_changed_) {
-      if (r_.states.back() != state_) r_.states.push_back(state_);
-      state_changed_ = false;
+    if (says_roles_behind_) {
+      const std::string type = fmt::format(";TYPE:{}", role_name(move.role));
+      state_changed_ = state_changed_ || state_[std::string(type_key)] != type;
+      state_[std::string(type_key)] = type;
     }
+    const std::uint32_t state = state_index();
     run().roads.push_back({.to = {to_um(move.to_mm.x), to_um(move.to_mm.y)},
                            .filament_e5 = to_e5(move.filament_mm),
                            .feed_mm_min = feed_,
-                           .state = std::uint32_t(r_.states.size() - 1),
+                           .state = state,
                            .move = std::uint32_t(index)});
   }
 
-  void require_known_road(const GcodeMove& move, Vec3 from) const {
+  void require_known_road(const GcodeMove& move, Vec3 from) {
     if (std::abs(from.z - move.to_mm.z) > same_height_mm)
       refuse(at_, "a road that rises (vase mode) is not re-planned");
     if (move.tool != move.feeds || move.tool != tool_) refuse(at_, "a road of another tool than the one in use");
     switch (move.role) {
       case Role::wipe_tower:
-        refuse(at_, "prints with a wipe tower are not re-planned yet; slice without it, a rampart is added");
+        if (!words_.tower_is_roads) refuse(at_, "a road of the wipe tower outside of it");
+        r_.keeps_tools = true;
+        return;
       case Role::support:
       case Role::support_interface:
         refuse(at_, "prints with supports are not re-planned yet");
@@ -312,16 +467,19 @@ class Recovery {
       refuse(at_, "roads of several heights in one layer are not re-planned yet");
     const std::size_t own_end = has_layer_mark_ ? mark_in_gap_ : tool_at;
     if (has_tool_) {
-      std::vector<std::string> enter;
+      std::vector<std::string> enter, leave;
       for (std::size_t i = tool_at; i < gap_.size(); ++i) enter.emplace_back(gap_[i].text);
-      require_same(r_.enter, tool_, enter);
       if (has_layer_mark_) {
         mixed_.push_back({r_.layers.size() - 1, from_tool_, gap_[tool_at].offset});
         for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
       } else {
-        std::vector<std::string> leave;
         for (std::size_t i = 0; i < tool_at; ++i) leave.emplace_back(gap_[i].text);
-        require_same(r_.leave, from_tool_, leave);
+      }
+      if (stand_) {
+        stand_aside(leave, enter);
+      } else {
+        require_same(r_.enter, tool_, enter);
+        if (!has_layer_mark_) require_same(r_.leave, from_tool_, leave);
       }
     } else {
       for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
@@ -333,13 +491,33 @@ class Recovery {
                                      .way = std::move(way_),
                                      .leaving = {},
                                      .drawn_back = drawn_back_ || has_tool_,
-                                     .back_after = has_tool_ ? 0 : back_after_});
+                                     .back_after = has_tool_ ? 0 : back_after_,
+                                     .forward_after = forward_after_.value_or(~std::size_t{0})});
     if (!run().way.empty()) run().way.pop_back();  // its start
     way_.clear();
     gap_.clear();
     breaks_ = has_layer_mark_ = has_tool_ = left_header_ = drawn_back_ = travelled_after_tool_ = false;
-    moved_among_notes_ = false;
+    moved_among_notes_ = 0;
     back_after_ = 0;
+    rises_after_.reset();
+    forward_after_.reset();
+    rise_mm_ = 0;
+  }
+
+  /// The change of tools as a stop on the way: where it stands, and its lines.
+  void stand_aside(const std::vector<std::string>& leave, const std::vector<std::string>& enter) {
+    FixedLines fixed{
+        .lines = leave, .tool_at = leave.size(), .tool_after = tool_, .to = *stand_, .state = state_index()};
+    fixed.lines.insert(fixed.lines.end(), enter.begin(), enter.end());
+    RecoveredRun stop;
+    stop.tool = from_tool_;
+    stop.from = *stand_;
+    stop.fixed = std::move(fixed);
+    stop.drawn_back = true;
+    r_.layers.back().runs.push_back(std::move(stop));
+    if (!has_layer_mark_) r_.leave.try_emplace(from_tool_, leave);
+    r_.keeps_tools = true;
+    stand_.reset();
   }
 
   struct Note {
@@ -370,25 +548,36 @@ class Recovery {
       std::vector<std::string>& header = r_.layers[m.layer].header;
       const auto known = r_.leave.find(m.from_tool);
       std::size_t plain = header.size();
-      while (plain > 0 && !header[plain - 1].starts_with(";HEIGHT:") && !header[plain - 1].starts_with(";Z:")) --plain;
+      while (plain > 0 && !begins_with_one_of(header[plain - 1], words_.header_ends) &&
+             !begins_with_one_of(header[plain - 1], words_.layer_begins))
+        --plain;
       const std::size_t length = known != r_.leave.end() ? known->second.size() : header.size() - plain;
       const auto rest = header.end() - std::ptrdiff_t(std::min(length, header.size()));
       std::vector<std::string> leave(rest, header.end());
-      const bool ends_so = known == r_.leave.end() || known->second == leave;
+      std::optional<FixedLines>& fixed = r_.layers[m.layer].runs.front().fixed;
+      const bool stands = fixed && !fixed->lays;
+      const bool ends_so = stands || known == r_.leave.end() || known->second == leave;
       if (!ends_so)
         refuse(m.offset,
                "a layer begins with a tool change that is not as those before; look at the custom G-code of "
                "tool and filament");
-      r_.leave.try_emplace(m.from_tool, leave);
+      if (stands) {
+        fixed->lines.insert(fixed->lines.begin(), leave.begin(), leave.end());
+        fixed->tool_at = leave.size();
+      } else {
+        r_.leave.try_emplace(m.from_tool, leave);
+      }
       header.erase(rest, header.end());
     }
   }
 
   void finish() {
+    leave_run();
     r_.end_tool = tool_;
     if (r_.states.back() != state_) r_.states.push_back(state_);
     r_.end_state = std::uint32_t(r_.states.size() - 1);
-    r_.end_count_e5 = count_e5_;
+    r_.end_count_e5 = count_e5(tool_);
+    r_.end_drawn_back_e5 = drawn_back_e5_[std::size_t(tool_)];
     r_.end_feed_mm_min = feed_;
     for (std::size_t k = 1; k < r_.layers.size(); ++k)
       if (r_.layers[k].z_mm <= r_.layers[k - 1].z_mm + same_height_mm)
@@ -405,6 +594,7 @@ class Recovery {
   };
 
   const GcodePrint& print_;
+  const DialectWords& words_;
   std::string_view text_;
   RecoveredPrint r_;
 
@@ -416,7 +606,7 @@ class Recovery {
   bool state_changed_ = true;
   int tool_ = 0, from_tool_ = 0;
   double feed_ = 0;
-  std::int64_t count_e5_ = 0;
+  std::vector<std::int64_t> count_e5_ = std::vector<std::int64_t>(max_tools, 0);
   std::vector<std::int64_t> drawn_back_e5_;
 
   // Since the last road:
@@ -424,15 +614,23 @@ class Recovery {
   std::vector<FilePoint> way_;
   std::size_t mark_in_gap_ = 0, tool_in_gap_ = 0;  // where the layer begins and the tool changes
   bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false, drawn_back_ = false;
-  bool travelled_after_tool_ = false, moved_among_notes_ = false;
+  bool travelled_after_tool_ = false;
+  int moved_among_notes_ = 0;
+  bool says_roles_behind_ = false;  // roads say behind them what they are: verbose comments of Slic3r
+  bool stands_aside_ = false;       // at changes of tools: the file's ooze_prevention
+  std::optional<FilePoint> stand_;  // where it does so this time
   std::size_t back_after_ = 0;
+  std::optional<std::size_t> rises_after_, forward_after_;  // so many places of the way
+  double rise_mm_ = 0;                                      // above the layer
   std::vector<Mixed> mixed_;
 };
 
 }  // namespace
 
 RecoveredPrint recovered_print(const GcodePrint& print) {
-  return Recovery(print).result();
+  const DialectWords* words = words_of(print.facts.dialect);
+  assert(words != nullptr);
+  return Recovery(print, *words).result();
 }
 
 }  // namespace cleancolor

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,15 +36,39 @@ struct RunRoad {
   std::uint32_t move = 0;   // index into GcodePrint::moves
 };
 
+/// Filament is drawn back while the nozzle goes back over what it printed.
+struct WipeMove {
+  FilePoint to;
+  std::int64_t filament_e5 = 0;  // > 0: so much is drawn back
+  double feed_mm_min = 0;
+};
+
+/// Lines that stay to the letter, in their place of the order: a change of tools with its own place to stand, or a
+/// piece of a wipe tower.
+struct FixedLines {
+  std::vector<std::string> lines;
+  bool lays = false;        // plastic: filament is pushed forward before; else drawn back as for a change
+  std::size_t tool_at = 0;  // index of the line that changes the tool, where it lays nothing
+  int tool_after = 0;       // in use from there on,
+  FilePoint to = {};        // where the carriage is then, as the file tells places of that tool
+  std::uint32_t state = 0;  // index into RecoveredPrint::states, before it
+  std::vector<std::int64_t> drawn_back_e5 = {};  // of each tool, by the lines themselves
+};
+
 struct RecoveredRun {
   int tool = 0;
   FilePoint from;
-  std::vector<RunRoad> roads;      // at least one
-  std::vector<std::string> notes;  // comments that stand before it
-  std::vector<FilePoint> way;      // passed on the way here in the file
-  std::vector<FilePoint> leaving;  // passed after it before the tool or the layer changes
-  bool drawn_back = false;         // on the way here,
-  std::size_t back_after = 0;      // where so many places of the way were passed
+  std::vector<RunRoad> roads;                   // at least one, or
+  std::optional<FixedLines> fixed = {};         // none
+  std::vector<std::string> notes;               // comments that stand before it
+  std::vector<FilePoint> way;                   // passed on the way here in the file
+  std::vector<FilePoint> leaving;               // passed after it before the tool or the layer changes
+  std::vector<FilePoint> wipe_from = {};        // passed before its wipe
+  std::vector<WipeMove> wipe = {};              // after it
+  std::int64_t back_before_wipe_e5 = 0;         // drawn back on the spot before
+  bool drawn_back = false;                      // on the way here,
+  std::size_t back_after = 0;                   // where so many places of the way were passed,
+  std::size_t forward_after = ~std::size_t{0};  // and pushed forward again after so many; else where it ends
 };
 
 struct RecoveredLayer {
@@ -54,20 +79,29 @@ struct RecoveredLayer {
 };
 
 struct RecoveredPrint {
-  std::size_t begin = 0, end = 0;  // of the layers in the text, bytes: what lies outside stays as it is
+  std::size_t begin = 0, end = 0;  // of the layers in the text, bytes: what lies outside stays as it is; the wipe after
+                                   // the last road lies inside
+  bool prints_after_end = false;   // more of a tower or shield
   std::vector<RecoveredLayer> layers;
   std::vector<ModalState> states;
 
+  bool keeps_tools = false;                       // changes of tools stay as many, and in their order
   std::map<int, std::vector<std::string>> leave;  // lines that a tool is left with
   std::map<int, std::vector<std::string>> enter;  // and taken with: its T and what follows
 
   bool relative_e = false;
-  int begin_tool = 0, end_tool = 0;                   // in use where the layers begin, and where they end
-  std::uint32_t begin_state = 0, end_state = 0;       // likewise
-  std::vector<std::int64_t> begin_drawn_back_e5;      // of each tool
-  std::int64_t begin_count_e5 = 0, end_count_e5 = 0;  // of E
+  bool e_of_each_tool = false;                    // each tool has its own count, which is never set anew (Sailfish)
+  bool says_on_and_off = false;                   // M101 and M103 around what is drawn back (MakerWare)
+  int begin_tool = 0, end_tool = 0;               // in use where the layers begin, and where they end
+  std::uint32_t begin_state = 0, end_state = 0;   // likewise
+  std::vector<std::int64_t> begin_drawn_back_e5;  // of each tool
+  std::vector<std::int64_t> begin_count_e5;       // of E, of each tool
+  std::int64_t end_count_e5 = 0;                  // of the last one
+  std::int64_t end_drawn_back_e5 = 0;             // by a wipe after the last road
   double end_feed_mm_min = 0;
-  std::size_t progress_lines = 0;  // M73 among the layers: told anew
+  std::string progress_line;      // the first M73 among the layers, which are told anew; empty: there are none
+  std::size_t elapsed_lines = 0;  // likewise, of the time so far
+  double change_lift_mm = 0;      // of a nozzle before another one takes over
 };
 
 /// Throws Error("file:line: ...") for what cannot be put in another order for sure; it says what to do.

@@ -25,7 +25,8 @@ enum class ReplanProtection { none, rampart, full };
 struct ReplanRequest {
   std::optional<Config> printer = {};  // a profile; the file's configuration is put over it
   ReplanProtection protection = ReplanProtection::full;
-  bool keeps_order = false;  // order, starts and travel stay those of the file
+  bool keeps_order = false;     // order, starts and travel stay those of the file
+  bool removes_shield = false;  // a skirt as high as the print; a rampart takes its place
   int threads = 1;
 };
 
@@ -34,6 +35,7 @@ struct Replanned {
   bool changed = true;  // false: it had been re-planned before, and is as it was
   double time_s = 0;    // predicted, of both
   double old_time_s = 0;
+  double removed_mm3 = 0;  // of plastic: the shield
 };
 
 /// Throws Error("file:line: ...") for files that cannot be re-planned for sure; it says what to do.

@@ -17,25 +17,26 @@ constexpr double seam_share = 0.02;   // of the roads' cells at most differ, whe
 
 using ToolRole = std::pair<int, Role>;
 
-bool is_part(const GcodeMove& move) {
-  return !is_auxiliary(move.role);
+bool is_kept(const GcodeMove& move) {
+  return move.role != Role::rampart && move.role != Role::refill;
 }
 
 std::map<ToolRole, double> filament_mm(const GcodePrint& print) {
   std::map<ToolRole, double> sums;
   for (std::size_t i = 0; i < print.moves.size(); ++i)
-    if (lays_plastic(print, i) && is_part(print.moves[i]))
+    if (lays_plastic(print, i) && is_kept(print.moves[i]))
       sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
   return sums;
 }
 
 /// Length of road of each tool in each cell of 0.4 mm and layer height, in cells that roads pass through their middles.
 using Cell = std::tuple<int, std::int64_t, std::int64_t, std::int64_t>;
-std::vector<std::pair<Cell, double>> cells(const GcodePrint& print) {
+std::vector<std::pair<Cell, double>> cells(const GcodePrint& print, bool without_skirt) {
   constexpr double cell_mm = 0.4, step_mm = 0.1;
   std::vector<std::pair<Cell, double>> all;
   for (std::size_t i = 1; i < print.moves.size(); ++i) {
-    if (!lays_plastic(print, i) || !is_part(print.moves[i])) continue;
+    if (!lays_plastic(print, i) || !is_kept(print.moves[i])) continue;
+    if (without_skirt && print.moves[i].role == Role::skirt_brim) continue;
     const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     const int steps = int(length / step_mm) + 1;
@@ -85,7 +86,7 @@ std::optional<std::size_t> starved_line(const GcodePrint& print) {
   std::vector<double> back_mm(max_tools, 0.);
   for (std::size_t i = 0; i < print.moves.size(); ++i) {
     const GcodeMove& move = print.moves[i];
-    if (lays_plastic(print, i) && back_mm[move.feeds] > rounding_mm && is_part(move))
+    if (lays_plastic(print, i) && back_mm[move.feeds] > rounding_mm && is_kept(move))
       return line_number(*print.text, move.offset);
     back_mm[move.feeds] = std::max(0., back_mm[move.feeds] - move.filament_mm);
   }
@@ -94,9 +95,12 @@ std::optional<std::size_t> starved_line(const GcodePrint& print) {
 
 }  // namespace
 
-std::optional<std::string> difference(const GcodePrint& before, const GcodePrint& after, const AuditMachine& machine) {
+std::optional<std::string> difference(const GcodePrint& before, const GcodePrint& after, const AuditMachine& machine,
+                                      const std::vector<double>& without_shield) {
   if (after.tools > int(machine.nozzles.size())) return "another tool is in use";
-  const auto old_mm = filament_mm(before), new_mm = filament_mm(after);
+  auto old_mm = filament_mm(before);
+  const auto new_mm = filament_mm(after);
+  for (std::size_t t = 0; t < without_shield.size(); ++t) old_mm[{int(t), Role::skirt_brim}] -= without_shield[t];
   for (const auto& [what, mm] : old_mm) {
     const auto found = new_mm.find(what);
     const double now = found == new_mm.end() ? 0 : found->second;
@@ -106,7 +110,8 @@ std::optional<std::string> difference(const GcodePrint& before, const GcodePrint
   }
   for (const auto& [what, mm] : new_mm)
     if (!old_mm.contains(what)) return fmt::format("there is {} that was not there", role_name(what.second));
-  const auto old_cells = cells(before), new_cells = cells(after);
+  const bool without_skirt = !without_shield.empty();
+  const auto old_cells = cells(before, without_skirt), new_cells = cells(after, without_skirt);
   const double all = sum_mm(old_cells), lost = beyond_mm(old_cells, new_cells), added = beyond_mm(new_cells, old_cells);
   if (std::max(lost, added) > seam_share * all)
     return fmt::format("{:.1f} mm of road are missing and {:.1f} mm were not there, of {:.0f} mm", lost, added, all);

@@ -2,19 +2,23 @@
 //
 // Same print: whether what was written prints the same part as what was read. Nothing is handed out without it.
 //
-// Compared: filament of each tool and role of the part, to 0.01 %; the roads as sets of points, each once, but for
-// seams that moved; that filament never stays drawn back while plastic is laid.
+// Compared: filament of each tool and role, to 0.01 %; the roads as sets of points, each once, but for seams that
+// moved; that filament never stays drawn back while plastic is laid. Walls of a rampart and refills are ours, and left
+// out.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "audit/machine.hpp"
 #include "reader/print.hpp"
 
 namespace cleancolor {
 
-/// What differs, in words; nothing where they are the same.  Requires: one machine for both.
-std::optional<std::string> difference(const GcodePrint& before, const GcodePrint& after, const AuditMachine& machine);
+/// What differs, in words; nothing where they are the same. without_shield: so many mm of filament of each tool were
+/// meant to go with it.  Requires: one machine for both.
+std::optional<std::string> difference(const GcodePrint& before, const GcodePrint& after, const AuditMachine& machine,
+                                      const std::vector<double>& without_shield = {});
 
 }  // namespace cleancolor

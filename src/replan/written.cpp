@@ -11,6 +11,7 @@
 #include "audit/timeline.hpp"
 #include "base/error.hpp"
 #include "gcode/polyline.hpp"
+#include "replan/dialect_words.hpp"
 #include "replan/emitter.hpp"
 #include "replan/planning.hpp"
 
@@ -18,6 +19,7 @@ namespace cleancolor {
 namespace {
 
 constexpr double same_place_mm = 0.002;
+constexpr double same_way_um = 50;
 constexpr std::int64_t unknown_way_um = 1'000'000'000;
 
 double length_um(FilePoint a, FilePoint b) {
@@ -82,6 +84,65 @@ std::int64_t cut_end(std::vector<Piece>& pieces, double gap_um) {
   return filament;
 }
 
+/// Twice, > 0 counterclockwise.
+template <class Points, class At>
+double area_of(const Points& points, At at) {
+  double sum = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2 a = at(points[i]), b = at(points[(i + 1) % points.size()]);
+    sum += cross(a, b);
+  }
+  return sum;
+}
+
+/// Whether the closed path goes round the other way than the run.
+bool is_turned(const Path& path, const RecoveredRun& run) {
+  const double planned = area_of(path.points, [](Vec2 p) { return p; });
+  const double sliced = area_of(run.roads, [](const RunRoad& r) { return Vec2{double(r.to.x_um), double(r.to.y_um)}; });
+  return (planned > 0) != (sliced > 0);
+}
+
+/// Drawing back over what was printed.
+struct Wipe {
+  std::vector<FilePoint> from;  // passed before it
+  std::int64_t before_e5 = 0;   // drawn back on the spot before
+  std::vector<WipeMove> moves;
+};
+
+/// As long as that of the file and drawing back as much: a loop is gone over again from its start, an open path
+/// backwards.  Requires: pieces are the run's, as they are printed.
+Wipe wipe_after(const RecoveredRun& run, std::vector<Piece> pieces, bool closed) {
+  if (run.wipe.empty()) return {};
+  double sum_um = 0;
+  std::int64_t filament = 0;
+  FilePoint at = run.wipe_from.empty() ? run.roads.back().to : run.wipe_from.back();
+  for (const WipeMove& move : run.wipe) {
+    sum_um += length_um(at, move.to);
+    filament += move.filament_e5;
+    at = move.to;
+  }
+  at = pieces.back().to;
+  if (!closed) pieces = backwards(std::move(pieces));
+  std::vector<FilePoint> way{pieces.front().from};
+  for (const Piece& p : pieces) way.push_back(p.to);
+  std::vector<WipeMove> moves;
+  std::vector<double> gone_um;
+  for (std::size_t i = 0; i < way.size() && (gone_um.empty() || gone_um.back() < sum_um); ++i) {
+    const double gone = gone_um.empty() ? 0 : gone_um.back(), length = length_um(at, way[i]);
+    if (length < 1) continue;
+    const FilePoint to = between(at, way[i], std::min(1., (sum_um - gone) / length));
+    moves.push_back({to, 0, run.wipe.front().feed_mm_min});
+    gone_um.push_back(std::min(sum_um, gone + length));
+    at = to;
+  }
+  std::int64_t given = 0;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    moves[i].filament_e5 = std::llround(double(filament) * gone_um[i] / gone_um.back()) - given;
+    given += moves[i].filament_e5;
+  }
+  return {{}, run.back_before_wipe_e5, std::move(moves)};
+}
+
 class Writing {
  public:
   Writing(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine, const Config& config,
@@ -91,7 +152,8 @@ class Writing {
         machine_(machine),
         config_(config),
         options_(options),
-        out_(recovered, config, start_of_text()),
+        words_(*words_of(print.facts.dialect)),
+        out_(recovered, words_, config, start_of_text()),
         asked_mm_(config.extruders.size(), 0.),
         written_e5_(config.extruders.size(), 0) {
     find_plain_states();
@@ -100,9 +162,11 @@ class Writing {
   std::string text(const std::vector<Layer>& layers) {
     for (std::size_t k = 0; k < layers.size(); ++k) layer(k, layers[k]);
     if (out_.tool() != recovered_.end_tool) {
-      draw_back_for_change();
-      out_.change_tool(recovered_.end_tool);
+      change_tool(recovered_.end_tool);
+      if (recovered_.prints_after_end) push_forward();
     }
+    wipe(recovered_.end_drawn_back_e5);
+    out_.draw_back(recovered_.end_drawn_back_e5);
     out_.set(recovered_.states[recovered_.end_state]);
     std::string text = out_.finish();
     text += print_.text->substr(recovered_.end);
@@ -129,7 +193,7 @@ class Writing {
         std::vector<std::optional<std::uint32_t>> own(tools);
         for (const RecoveredRun& run : recovered_.layers[k].runs) {
           const auto t = std::size_t(run.tool);
-          if (!own[t]) own[t] = run.roads.front().state;
+          if (!own[t] && !run.fixed) own[t] = run.roads.front().state;
         }
         for (std::size_t t = 0; t < tools; ++t) {
           if (own[t]) last[t] = own[t];
@@ -138,26 +202,48 @@ class Writing {
       }
   }
 
-  void draw_back() {
-    const Extruder& e = config_.extruders[std::size_t(out_.tool())];
-    out_.draw_back(std::llround(e.retract_length_mm * 1e5));
-    if (e.retract_lift_mm > 0) out_.lift(e.retract_lift_mm);
+  void draw_back() { draw_back(extruder().retract_length_mm, extruder().retract_lift_mm); }
+  void draw_back_for_change() {
+    draw_back(extruder().retract_length_toolchange_mm, std::max(extruder().retract_lift_mm, recovered_.change_lift_mm));
+  }
+  void draw_back(double length_mm, double lift_mm) {
+    const std::int64_t to_e5 = std::llround(length_mm * 1e5);
+    wipe(to_e5);
+    out_.draw_back(to_e5);
+    if (lift_mm > 0) out_.lift(lift_mm);
   }
 
-  void draw_back_for_change() {
-    const Extruder& e = config_.extruders[std::size_t(out_.tool())];
-    out_.draw_back(std::llround(e.retract_length_toolchange_mm * 1e5));
-    if (e.retract_lift_mm > 0) out_.lift(e.retract_lift_mm);
+  void change_tool(int tool) {
+    draw_back_for_change();
+    out_.change_tool(tool);
+    if (!words_.pushes_at_change) return;
+    out_.push_forward(std::llround(extruder().retract_length_mm * 1e5));
+    out_.lower();
+  }
+
+  const Extruder& extruder() const { return config_.extruders[std::size_t(out_.tool())]; }
+
+  /// What can be drawn back over the path just printed.
+  void wipe(std::int64_t most_e5) {
+    const Wipe wipe = std::exchange(wipe_, {});
+    std::int64_t sum_e5 = wipe.before_e5;
+    for (const WipeMove& move : wipe.moves) sum_e5 += move.filament_e5;
+    if (wipe.moves.empty() || out_.drawn_back_e5() > 0 || sum_e5 > most_e5) return;
+    for (const FilePoint p : wipe.from) out_.travel(p);
+    out_.draw_back(wipe.before_e5);
+    out_.line(";WIPE_START");
+    for (const WipeMove& move : wipe.moves) out_.wipe(move.to, move.filament_e5, move.feed_mm_min);
+    out_.line(";WIPE_END");
   }
 
   void layer(std::size_t k, const Layer& planned) {
     const RecoveredLayer& source = recovered_.layers[k];
     layer_ = k;
+    last_ = nullptr;
     std::vector<char> is_written(source.runs.size(), 0);
     out_.header(source.header);
-    if (recovered_.progress_lines > 0) out_.line(progress_placeholder);
-    const Extruder& e = config_.extruders[std::size_t(out_.tool())];
-    if (options_.as_in_file ? source.runs.front().drawn_back : e.retract_layer_change) draw_back();
+    if (!recovered_.progress_line.empty()) out_.line(recovered_.progress_line);  // its numbers come later
+    if (options_.as_in_file ? source.runs.front().drawn_back : extruder().retract_layer_change) draw_back();
     out_.set_z(source.z_mm);
     for (const Path& path : planned.paths) {
       if (path.source < 0) {
@@ -166,8 +252,9 @@ class Writing {
       }
       const RecoveredRun& run = source.runs.at(std::size_t(path.source));
       if (std::exchange(is_written[std::size_t(path.source)], char(1)) != 0) fail("a path is planned twice");
-      recovered_path(path, run);
+      run.fixed ? fixed_path(path, run) : recovered_path(path, run);
     }
+    if (recovered_.elapsed_lines > 0) out_.line(fmt::format("{}0", words_.elapsed));
     if (std::ranges::find(is_written, 0) != is_written.end()) fail("a path is not planned");
   }
 
@@ -190,41 +277,85 @@ class Writing {
     for (const Vec2 p : path.travel) way.push_back(in_file(p, path.extruder));
     way.push_back(start);
     for (const FilePoint p : way) way_um += length_um(from, p), from = p;
-    if (changes) {
-      draw_back_for_change();
-      out_.change_tool(path.extruder);
-    }
+    if (changes) change_tool(path.extruder);
     const Extruder& e = config_.extruders[std::size_t(path.extruder)];
-    if (way_um > e.retract_before_travel_mm * 1e3 - 1) draw_back();
+    const bool draws_back = way_um > e.retract_before_travel_mm * 1e3 - 1;
+    if (draws_back && !(run != nullptr && goes_so_in_file(*run, way_um))) draw_back();
     for (const FilePoint p : way) out_.travel(p);
+  }
+
+  /// Whether the file goes between this run and the one printed last, this way or the other, no shorter and without
+  /// drawing back.
+  bool goes_so_in_file(const RecoveredRun& run, double way_um) const {
+    if (last_ == nullptr || last_->tool != run.tool) return false;
+    const bool forward = &run == last_ + 1;
+    if (!forward && &run + 1 != last_) return false;
+    const RecoveredRun &before = forward ? *last_ : run, &after = forward ? run : *last_;
+    if (after.drawn_back || before.fixed || after.fixed) return false;
+    double sliced_um = 0;
+    FilePoint at = before.roads.back().to;
+    for (const FilePoint p : after.way) sliced_um += length_um(at, p), at = p;
+    sliced_um += length_um(at, after.from);
+    return way_um <= sliced_um + same_way_um;
   }
 
   void go_as_in_file(const RecoveredRun& run, FilePoint start) {
     if (run.tool != out_.tool()) {
-      draw_back_for_change();
-      out_.change_tool(run.tool);
+      change_tool(run.tool);
       draw_back();
     }
     for (std::size_t i = 0; i < run.way.size(); ++i) {
       if (run.drawn_back && i == run.back_after) draw_back();
+      if (i == run.forward_after) push_forward_on_the_way();
       out_.travel(run.way[i]);
     }
     if (run.drawn_back && run.back_after >= run.way.size()) draw_back();
+    if (run.forward_after == run.way.size()) push_forward_on_the_way();
     out_.travel(start);
   }
 
-  void recovered_path(const Path& path, const RecoveredRun& run) {
-    const std::vector<Piece> pieces = begun(path, run);
-    go(path, pieces.front().from, &run);
-    out_.lines(run.notes);
+  void push_forward() {
     out_.lower();
     out_.push_forward();
+  }
+
+  void push_forward_on_the_way() {
+    if (out_.is_lifted()) out_.lower();
+    out_.push_forward();
+  }
+
+  void recovered_path(const Path& path, const RecoveredRun& run) {
+    std::vector<Piece> pieces = begun(path, run);
+    go(path, pieces.front().from, &run);
+    out_.lines(run.notes);
+    push_forward();
     for (const Piece& p : pieces) {
       out_.set(recovered_.states[p.state]);
       out_.road(p.to, p.filament_e5, p.feed_mm_min);
     }
+    wipe_ = options_.as_in_file ? Wipe{run.wipe_from, run.back_before_wipe_e5, run.wipe}
+                                : wipe_after(run, std::move(pieces), path.closed);
+    leave(run);
+    last_ = &run;
+  }
+
+  void leave(const RecoveredRun& run) {
     if (options_.as_in_file)
       for (const FilePoint p : run.leaving) out_.travel(p);
+  }
+
+  void fixed_path(const Path& path, const RecoveredRun& run) {
+    if (!run.fixed->lays) draw_back_for_change();
+    go(path, run.from, &run);
+    out_.lines(run.notes);
+    if (run.fixed->lays) {
+      push_forward();
+      out_.set(recovered_.states[run.fixed->state]);
+    }
+    out_.fixed(*run.fixed);
+    last_ = nullptr;
+    wipe_ = {};
+    leave(run);
   }
 
   /// The roads of the run as the path walks them.
@@ -237,6 +368,8 @@ class Writing {
       if (apart_mm(pieces.front().from, path.points.front()) > same_place_mm) fail("a path begins elsewhere");
       return pieces;
     }
+    // Walls may be walked either way; loops of the part stay as they were sliced.
+    if (path.road().role == Role::rampart && is_turned(path, run)) pieces = backwards(std::move(pieces));
     std::size_t best = 0;
     double least = apart_mm(pieces.front().from, path.start());
     Vec2 on = path.start();
@@ -289,8 +422,7 @@ class Writing {
     lay_out(path, config_.gcode_resolution_mm, config_.seam_gap_distance.of(e.nozzle_diameter_mm), line);
     if (line.points.size() < 2) return;
     go(path, in_file(line.points.front(), path.extruder), nullptr);
-    out_.lower();
-    out_.push_forward();
+    push_forward();
     ModalState state = recovered_.states[plain_state_[k][tool]];
     for (auto& [key, text] : state)
       if (key.starts_with("0 ")) text.clear();  // it belongs to no object
@@ -301,9 +433,12 @@ class Writing {
     for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
       if (next < line.stretches.size() && line.stretches[next].first_segment <= i) {
         road = line.stretches[next++].road;
-        state[std::string(type_key)] = ";TYPE:Skirt/Brim";
-        state[std::string(width_key)] = fmt::format(";WIDTH:{:.6g}", road.width_mm);
-        state[std::string(height_key)] = fmt::format(";HEIGHT:{:.6g}", road.height_mm);
+        state[std::string(type_key)] = words_.own_type;
+        if (!words_.own_object.empty()) state[std::string(mesh_key)] = words_.own_object;
+        if (words_.tells_sizes) {
+          state[std::string(width_key)] = fmt::format(";WIDTH:{:.6g}", road.width_mm);
+          state[std::string(height_key)] = fmt::format(";HEIGHT:{:.6g}", road.height_mm);
+        }
         out_.set(state);
         if (i == 0) out_.line(refills ? ";REFILL_START" : ";RAMPART_WALL");
       }
@@ -314,6 +449,9 @@ class Writing {
       out_.road(in_file(line.points[i + 1], path.extruder), filament, road.speed_mm_s * 60);
     }
     if (refills) out_.line(";REFILL_END");
+    last_ = nullptr;
+    out_.forget(type_key);  // what follows may be of the same type, but it is no wall
+    wipe_ = {};
   }
 
   const RecoveredPrint& recovered_;
@@ -321,8 +459,11 @@ class Writing {
   const AuditMachine& machine_;
   const Config& config_;
   const WriteOptions& options_;
+  const DialectWords& words_;
   Emitter out_;
   std::size_t layer_ = 0;
+  const RecoveredRun* last_ = nullptr;                   // printed last, in this layer
+  Wipe wipe_;                                            // that the path printed last may be left with
   std::vector<std::vector<std::uint32_t>> plain_state_;  // [layer][tool]
   std::vector<double> asked_mm_;                         // of rampart and refills, by tool
   std::vector<std::int64_t> written_e5_;

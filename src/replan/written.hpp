@@ -20,9 +20,6 @@
 
 namespace cleancolor {
 
-/// Stands at the beginning of each layer of a file that tells the remaining time; the numbers come later.
-inline constexpr const char* progress_placeholder = "M73 P0 R0";
-
 struct WriteOptions {
   bool as_in_file = false;  // filament is drawn back where the file does, not where the way is long
   std::string header;       // our line, without its end

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
+#include <sstream>
 #include <tuple>
 
 #include "audit/audit.hpp"
@@ -19,9 +21,9 @@ inline std::string fixture(const std::string& name) {
 }
 
 inline Replanned replanned_text(const std::string& text, const ReplanRequest& request = {},
-                                const Progress& progress = {}) {
+                                const Progress& progress = {}, const MachineRequest& where = {}) {
   const GcodePrint print = read_gcode(text, "in.gcode");
-  return replanned(print, audit_machine(print, {}), request, progress);
+  return replanned(print, audit_machine(print, where), request, progress);
 }
 
 /// The text with one line put before the first that begins so, beyond `after` bytes.
@@ -43,6 +45,15 @@ inline std::map<ToolRole, double> part_filament(const GcodePrint& print) {
   std::map<ToolRole, double> sums;
   for (std::size_t i = 0; i < print.moves.size(); ++i)
     if (lays_plastic(print, i) && !is_auxiliary(print.moves[i].role))
+      sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
+  return sums;
+}
+
+/// Of all that is laid but walls of a rampart, mm.
+inline std::map<ToolRole, double> kept_filament(const GcodePrint& print) {
+  std::map<ToolRole, double> sums;
+  for (std::size_t i = 0; i < print.moves.size(); ++i)
+    if (lays_plastic(print, i) && print.moves[i].role != Role::rampart)
       sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
   return sums;
 }
@@ -71,11 +82,52 @@ inline double length_mm(const RoadKey& road) {
 struct Cleanness {
   double smear_mm3 = 0, hole_mm3 = 0, time_s = 0;
 };
-inline Cleanness cleanness(const std::string& text) {
+inline Cleanness cleanness(const std::string& text, const MachineRequest& where = {}) {
   const GcodePrint print = read_gcode(text, "print.gcode");
-  const AuditResult result = audit(print, audit_machine(print, {}));
+  const AuditResult result = audit(print, audit_machine(print, where));
   return {result.scenarios.front().total.smear_volume(), result.scenarios.front().total.hole_volume,
           result.print_time_s};
+}
+
+/// Lines left out, said twice, swapped or with another letter: whatever comes in is refused, or planned whole.
+/// Returns: how many of the damaged files were planned.
+inline int planned_of_damaged(const std::string& sound, unsigned count) {
+  std::vector<std::string> lines;
+  std::istringstream in(sound);
+  for (std::string line; std::getline(in, line);) lines.push_back(line + "\n");
+  int planned = 0;
+  for (unsigned seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::vector<std::string> damaged = lines;
+    const std::size_t at = random() % (damaged.size() - 400), other = random() % (damaged.size() - 400);
+    const auto place = damaged.begin() + std::ptrdiff_t(at);
+    switch (random() % 4) {
+      case 0:
+        damaged.erase(place);
+        break;
+      case 1:
+        damaged.insert(place, std::string(damaged[other]));
+        break;
+      case 2:
+        std::swap(damaged[at], damaged[other]);
+        break;
+      default:
+        damaged[at][0] = char('A' + random() % 26);
+    }
+    std::string text;
+    for (const std::string& line : damaged) text += line;
+    std::string out;
+    try {
+      out = replanned_text(text).text;
+    } catch (const Error&) {
+      continue;
+    }
+    ++planned;
+    const auto before = part_filament(read_gcode(text, "")), after = part_filament(read_gcode(out, ""));
+    for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm + 0.01);
+  }
+  return planned;
 }
 
 }  // namespace cleancolor::test

@@ -1,0 +1,48 @@
+#include "replan/dialect_words.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr DialectWords prusaslicer = {.layer_begins = {";LAYER_CHANGE", ";BEFORE_LAYER_CHANGE"},
+                                      .header_ends = {";HEIGHT:", ";Z:"},
+                                      .own_type = ";TYPE:Skirt/Brim",
+                                      .own_object = {},
+                                      .elapsed = {}};
+
+constexpr DialectWords cura = {.layer_begins = {";LAYER:", {}},
+                               .header_ends = {},
+                               .own_type = ";TYPE:SKIRT",
+                               .own_object = ";MESH:NONMESH",
+                               .elapsed = ";TIME_ELAPSED:",
+                               .travel = "G0",
+                               .tells_sizes = false,
+                               .zeroes_e = false,
+                               .rises_before_layer = true,
+                               .begins_drawn_back = true,
+                               .tower_is_roads = true,
+                               .times_heaters = true,
+                               .lifts_at_change = true,
+                               .pushes_at_change = true};
+
+}  // namespace
+
+const DialectWords* words_of(Dialect dialect) {
+  switch (dialect) {
+    case Dialect::prusaslicer:
+    case Dialect::slic3r:
+      return &prusaslicer;
+    case Dialect::cura:
+      return &cura;
+    default:
+      return nullptr;
+  }
+}
+
+std::optional<int> tool_taken(const GcodeLine& line) {
+  if (line.letter == 'T') return line.number;
+  const bool by_m = line.letter == 'M' && (line.number == 108 || line.number == 135);
+  if (!by_m || !line.has_value('T')) return std::nullopt;
+  return int(line['T']);
+}
+
+}  // namespace cleancolor

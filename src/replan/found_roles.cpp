@@ -1,0 +1,149 @@
+#include "replan/found_roles.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.hpp"
+#include "model/text_scan.hpp"
+#include "printed/regions.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr double detail_mm = 0.05;
+constexpr double seam_widths = 0.6;    // ends of a loop so near to its start are its seam
+constexpr double least_round = 8;      // a loop is so many times longer than its gap
+constexpr double outer_widths = 0.8;   // middles of outer walls are nearer than that to the border
+constexpr double skirt_room_mm = 0.6;  // between a skirt and all else
+constexpr std::size_t samples = 24;    // places of a loop that are asked how deep it lies
+
+/// Moves [first, last) of one nozzle without a break.
+struct Run {
+  std::size_t first = 0, last = 0;
+  int tool = 0;
+  std::vector<Vec2> points;  // where the plastic lies
+  double width_mm = 0;
+  bool closed = false;
+};
+
+std::string_view value_of(const GcodePrint& print, std::string_view key) {
+  for (const IniEntry& entry : print.facts.config)
+    if (entry.key == key) return entry.value;
+  return {};
+}
+
+bool is_set(std::string_view value) {
+  return !value.empty() && value.find_first_not_of("0.,%") != value.npos;
+}
+
+std::vector<std::vector<Run>> runs_by_layer(const GcodePrint& print, const AuditMachine& machine, std::size_t begin) {
+  std::vector<std::vector<Run>> layers(print.layers.size());
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < print.moves.size(); ++i) {
+    const GcodeMove& move = print.moves[i];
+    if (move.offset < begin || !lays_plastic(print, i)) continue;
+    std::vector<Run>& runs = layers[move.layer];
+    const auto place = [&](Vec3 p) { return plastic_mm(machine, {p.x, p.y}, move.feeds); };
+    if (runs.empty() || last + 1 != i || runs.back().tool != move.feeds)
+      runs.push_back({i, i, move.feeds, {place(print.moves[i - 1].to_mm)}, road_width_mm(move), false});
+    runs.back().points.push_back(place(move.to_mm));
+    runs.back().last = i + 1;
+    last = i;
+  }
+  for (std::vector<Run>& runs : layers)
+    for (Run& run : runs) {
+      const double gap = distance(run.points.front(), run.points.back());
+      double length = 0;
+      for (std::size_t i = 0; i + 1 < run.points.size(); ++i) length += distance(run.points[i], run.points[i + 1]);
+      run.closed = run.points.size() > 3 && gap <= seam_widths * run.width_mm && length > least_round * gap;
+    }
+  return layers;
+}
+
+Box<Vec2> box_of(const Run& run) {
+  Box<Vec2> box;
+  for (const Vec2 p : run.points) box.add(p);
+  return box;
+}
+
+/// How many of the first runs are loops around all that follow.
+std::size_t skirts(const std::vector<Run>& runs) {
+  std::size_t count = 0;
+  for (; count + 1 < runs.size() && runs[count].closed; ++count) {
+    const Box<Vec2> own = box_of(runs[count]);
+    Box<Vec2> rest;
+    for (std::size_t i = count + 1; i < runs.size(); ++i)
+      for (const Vec2 p : runs[i].points) rest.add(p);
+    const double room =
+        std::min({rest.min.x - own.min.x, rest.min.y - own.min.y, own.max.x - rest.max.x, own.max.y - rest.max.y});
+    if (room < skirt_room_mm) break;
+  }
+  return count;
+}
+
+double distance_to_border(const Polygons& region, Vec2 p) {
+  double least = INFINITY;
+  for (const Ring& ring : region)
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      least = std::min(least,
+                       length_squared(nearest_on_segment(to_mm(ring[i]), to_mm(ring[(i + 1) % ring.size()]), p) - p));
+  return std::sqrt(least);
+}
+
+bool is_outer(const Run& run, const Polygons& region) {
+  std::vector<double> depths;
+  const std::size_t step = std::max<std::size_t>(1, run.points.size() / samples);
+  for (std::size_t i = 0; i + 1 < run.points.size(); i += step)
+    depths.push_back(distance_to_border(region, lerp(run.points[i], run.points[i + 1], 0.5)));
+  std::ranges::nth_element(depths, depths.begin() + std::ptrdiff_t(depths.size() / 2));
+  return depths[depths.size() / 2] < outer_widths * run.width_mm;
+}
+
+}  // namespace
+
+bool tells_roles(const GcodePrint& print) {
+  for (std::size_t i = 0; i < print.moves.size(); ++i)
+    if (lays_plastic(print, i) && print.moves[i].role != Role::unknown && !is_auxiliary(print.moves[i].role))
+      return true;
+  return false;
+}
+
+GcodePrint with_found_roles(GcodePrint print, const AuditMachine& machine) {
+  for (const std::string_view key : {"support_material", "raft_layers", "brim_width", "interior_brim_width"})
+    if (is_set(value_of(print, key)))
+      throw Error(
+          fmt::format("{}: {} = {}, and the file does not say which roads are that; switch on verbose G-code "
+                      "(gcode_comments), or slice without",
+                      print.name, key, value_of(print, key)));
+  const bool ooze = value_of(print, "ooze_prevention") == "1";
+  const bool all_layers = ooze || value_of(print, "skirt_height") == "-1";
+  const auto height = number<std::size_t>(value_of(print, "skirt_height")).value_or(1);
+  const bool has_skirts = ooze || is_set(value_of(print, "skirts"));
+  const std::size_t begin = print.text->find("\n;LAYER_CHANGE");
+  auto layers = runs_by_layer(print, machine, begin == std::string::npos ? 0 : begin);
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    std::vector<Run>& runs = layers[k];
+    const std::size_t skirted = has_skirts && (all_layers || k < height) ? skirts(runs) : 0;
+    std::map<int, std::vector<LaidRoad>> roads;
+    for (std::size_t n = skirted; n < runs.size(); ++n)
+      for (std::size_t i = 0; i + 1 < runs[n].points.size(); ++i)
+        roads[runs[n].tool].push_back({runs[n].points[i], runs[n].points[i + 1], runs[n].width_mm, runs[n].tool,
+                                       runs[n].closed ? Role::external_perimeter : Role::internal_infill});
+    std::map<int, Polygons> regions;
+    for (const auto& [tool, own] : roads) regions[tool] = region(own, tool, detail_mm);
+    for (std::size_t n = 0; n < runs.size(); ++n) {
+      const Role role = n < skirted                                ? Role::skirt_brim
+                        : !runs[n].closed                          ? Role::internal_infill
+                        : is_outer(runs[n], regions[runs[n].tool]) ? Role::external_perimeter
+                                                                   : Role::perimeter;
+      for (std::size_t i = runs[n].first; i < runs[n].last; ++i)
+        if (lays_plastic(print, i)) print.moves[i].role = role;
+    }
+  }
+  return print;
+}
+
+}  // namespace cleancolor

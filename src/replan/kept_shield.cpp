@@ -1,0 +1,65 @@
+#include "replan/kept_shield.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr std::size_t skirt_layers = 5;  // a skirt in more is a shield
+constexpr double seam_widths = 0.6;      // ends of a loop so near to its start are its seam
+
+bool is_skirt(const RecoveredRun& run, const GcodePrint& print) {
+  return std::ranges::all_of(run.roads,
+                             [&](const RunRoad& road) { return print.moves[road.move].role == Role::skirt_brim; }) &&
+         !run.roads.empty();
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> shield_runs(const RecoveredPrint& recovered, const GcodePrint& print) {
+  std::vector<std::vector<std::size_t>> runs(recovered.layers.size());
+  std::size_t layers = 0;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const std::vector<RecoveredRun>& all = recovered.layers[k].runs;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (is_skirt(all[i], print)) runs[k].push_back(i);
+    layers += runs[k].empty() ? 0 : 1;
+  }
+  if (layers <= skirt_layers) return {};
+  if (runs[0].size() > runs[1].size()) runs[0].clear();
+  return runs;
+}
+
+Path as_wall(Path path) {
+  for (Stretch& s : path.stretches) s.road.role = Role::rampart;
+  const double gap = distance(path.points.front(), path.points.back());
+  if (path.closed || path.points.size() < 4 || gap > seam_widths * path.road().width_mm) return path;
+  path.closed = true;
+  if (gap == 0) path.points.pop_back();
+  return path;
+}
+
+std::vector<double> remove_shield(RecoveredPrint& recovered, const GcodePrint& print) {
+  std::vector<double> filament_mm(std::size_t(print.tools), 0.);
+  const auto shield = shield_runs(recovered, print);
+  for (std::size_t k = 0; k < shield.size(); ++k) {
+    std::vector<RecoveredRun>& runs = recovered.layers[k].runs;
+    for (std::size_t n = shield[k].size(); n-- > 0;) {
+      const auto run = runs.begin() + std::ptrdiff_t(shield[k][n]);
+      if (!run->notes.empty())
+        throw Error(
+            fmt::format("{}: layer {}: comments stand before the shield; it cannot be removed", print.name, k + 1));
+      for (const RunRoad& road : run->roads) filament_mm[std::size_t(run->tool)] += double(road.filament_e5) * 1e-5;
+      runs.erase(run);
+    }
+    if (runs.empty())
+      throw Error(fmt::format("{}: layer {} has nothing but the shield; it cannot be removed", print.name, k + 1));
+  }
+  return filament_mm;
+}
+
+}  // namespace cleancolor
