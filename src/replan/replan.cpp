@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "audit/timeline.hpp"
 #include "base/error.hpp"
@@ -13,6 +16,7 @@
 #include "replan/planning.hpp"
 #include "replan/recovered.hpp"
 #include "replan/same_print.hpp"
+#include "replan/worth.hpp"
 #include "replan/written.hpp"
 
 namespace cleancolor {
@@ -33,11 +37,12 @@ void require_known_dialect(const GcodePrint& print) {
       fmt::format("{}: made by {}; only files of PrusaSlicer are re-planned so far", print.name, producer_of(print)));
 }
 
-std::string header_line(const ReplanRequest& request) {
-  const char* what = request.keeps_order                               ? "order and travel kept"
-                     : request.protection == ReplanProtection::rampart ? "rampart added, order and travel plain"
-                     : request.protection == ReplanProtection::none    ? "order and travel plain, no rampart"
-                                                                       : "order and travel planned, rampart added";
+std::string header_line(const ReplanRequest& request, bool has_rampart) {
+  std::string what = request.keeps_order ? "order and travel kept" : "order and travel ";
+  if (!request.keeps_order) {
+    what += request.protection == ReplanProtection::full ? "planned" : "plain";
+    what += has_rampart ? ", rampart added" : ", no rampart";
+  }
   return fmt::format("{}{}: {}; paths and settings as sliced", mark, CLEANCOLOR_VERSION, what);
 }
 
@@ -89,38 +94,103 @@ std::string with_progress(const GcodePrint& after, const Timeline& time, double 
   return result;
 }
 
+/// The print as one plan makes it.
+struct Attempt {
+  std::string text;
+  GcodePrint print;
+  bool has_rampart = false, stands_apart = false;
+  Cleanness cleanness = {};
+};
+
+class Attempts {
+ public:
+  Attempts(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request, const Progress& progress)
+      : print_(print),
+        machine_(machine),
+        request_(request),
+        progress_(progress),
+        config_(planning_config(print, machine, request.printer ? &*request.printer : nullptr)),
+        recovered_(recovered_print(print)) {
+    if (request.protection == ReplanProtection::none || request.keeps_order) config_.rampart = RampartShape::off;
+    if (request.protection != ReplanProtection::full) config_.planner = Planner::plain;
+  }
+
+  Attempt with(RampartExtent extent) const {
+    ReplannedLayers planned =
+        planned_layers(recovered_, print_, machine_, config_,
+                       {.plans = !request_.keeps_order, .rampart = extent, .threads = request_.threads}, progress_);
+    progress_.advance("writing", 0);
+    Attempt made{
+        .text = written(recovered_, print_, machine_, config_, planned.layers,
+                        {.as_in_file = request_.keeps_order, .header = header_line(request_, planned.has_rampart)}),
+        .print = {},
+        .has_rampart = planned.has_rampart,
+        .stands_apart = planned.stands_apart};
+    made.print = read_gcode(made.text, print_.name);
+    if (const auto what = difference(print_, made.print, machine_))
+      throw Error(
+          fmt::format("{}: re-planned it would not be the same print: {}; the file is left as it is. Please "
+                      "report it",
+                      print_.name, *what));
+    return made;
+  }
+
+  /// The one that costs least; nothing where the file itself does.
+  std::optional<Attempt> best() const {
+    Attempt best = with(RampartExtent::all);
+    const Cleanness before = judged(print_);
+    best.cleanness = judged(best.print);
+    const std::vector<RampartExtent> others =
+        best.has_rampart ? worth_trying(best.cleanness, before, config_) : std::vector<RampartExtent>{};
+    const bool stands_apart = best.stands_apart;
+    for (const RampartExtent extent : others) {
+      if (extent == RampartExtent::column && !stands_apart) continue;
+      Attempt other = with(extent);
+      other.cleanness = judged(other.print);
+      if (print_cost(other.cleanness, before, config_) < print_cost(best.cleanness, before, config_))
+        best = std::move(other);
+    }
+    if (!is_worth_it(best.cleanness, before, config_)) return std::nullopt;
+    return best;
+  }
+
+  bool tells_progress() const { return recovered_.progress_lines > 0; }
+
+ private:
+  Cleanness judged(const GcodePrint& print) const { return cleanness(print, machine_, request_.threads, progress_); }
+
+  const GcodePrint& print_;
+  const AuditMachine& machine_;
+  const ReplanRequest& request_;
+  const Progress& progress_;
+  Config config_;
+  RecoveredPrint recovered_;
+};
+
+Replanned unchanged(const GcodePrint& print, std::string reason) {
+  return {.text = *print.text, .changed = false, .reason = std::move(reason)};
+}
+
 }  // namespace
 
 Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request,
                     const Progress& progress) {
-  Replanned result;
-  if (std::string_view(*print.text).substr(0, head_bytes).find(mark) != std::string_view::npos) {
-    result.text = *print.text;
-    result.changed = false;
-    return result;
-  }
+  if (std::string_view(*print.text).substr(0, head_bytes).find(mark) != std::string_view::npos)
+    return unchanged(print, "it was re-planned before");
   require_known_dialect(print);
-  Config config = planning_config(print, machine, request.printer ? &*request.printer : nullptr);
-  if (request.protection == ReplanProtection::none || request.keeps_order) config.rampart = RampartShape::off;
-  if (request.protection != ReplanProtection::full) config.planner = Planner::plain;
-  const RecoveredPrint recovered = recovered_print(print);
-  const std::vector<Layer> layers = planned_layers(
-      recovered, print, machine, config, {.plans = !request.keeps_order, .threads = request.threads}, progress);
-  progress.advance("writing", 0);
-  result.text = written(recovered, print, machine, config, layers,
-                        {.as_in_file = request.keeps_order, .header = header_line(request)});
-  const GcodePrint after = read_gcode(result.text, print.name);
-  if (const auto what = difference(print, after, machine))
-    throw Error(
-        fmt::format("{}: re-planned it would not be the same print: {}; the file is left as it is. Please "
-                    "report it",
-                    print.name, *what));
+  const Attempts attempts(print, machine, request, progress);
+  const bool judges = request.protection == ReplanProtection::full && !request.keeps_order;
+  std::optional<Attempt> made = judges ? attempts.best() : attempts.with(RampartExtent::all);
+  if (!made) return unchanged(print, "re-planned it would come out no cleaner than the time is worth");
+  Replanned result;
+  result.text = std::move(made->text);
+  result.has_rampart = made->has_rampart;
   result.old_time_s = timeline(print, machine).print_time_s;
-  const Timeline time = timeline(after, machine);
+  const Timeline time = timeline(made->print, machine);
   result.time_s = time.print_time_s;
   if (result.old_time_s <= 0) return result;
   const double told_share = print.facts.told_time_s > 0 ? print.facts.told_time_s / result.old_time_s : 1;
-  if (recovered.progress_lines > 0) result.text = with_progress(after, time, told_share);
+  if (attempts.tells_progress()) result.text = with_progress(made->print, time, told_share);
   correct_estimates(result.text, print.facts.told_time_s, result.time_s / result.old_time_s);
   return result;
 }
