@@ -18,9 +18,9 @@ namespace cleancolor {
 namespace {
 
 constexpr double same_place_mm = 0.002;
-constexpr double joint_half_gap = 1.134;    // of the inner loop, in distances of the loops (plan/joined_loops.cpp)
-constexpr double most_trimmed = 1 / 3.;     // of the inner loop, at each of its ends
-constexpr double shortest_stroke_um = 100;  // worth it
+constexpr double joint_half_gap = 1.134;   // of the inner loop, in distances of the loops (plan/joined_loops.cpp)
+constexpr double most_trimmed = 1 / 3.;    // of the inner loop, at each of its ends
+constexpr double shortest_stroke_um = 50;  // worth it
 constexpr std::int64_t unknown_way_um = 1'000'000'000;
 
 double length_um(FilePoint a, FilePoint b) {
