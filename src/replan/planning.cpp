@@ -19,6 +19,7 @@
 #include "protection.hpp"
 #include "replan/columns.hpp"
 #include "replan/leads.hpp"
+#include "replan/walled_layers.hpp"
 #include "toolpath/roads.hpp"
 
 namespace cleancolor {
@@ -332,11 +333,14 @@ ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint
   Layer below;
   LeadOptions leads;
   for (int e = 0; e < int(config.extruders.size()); ++e) leads.hop.push_back(hop_time(config, e));
+  const int walled = walled_layers(scene.layers, leads.ooze);
   const auto plan = [&](int k) {
-    Layer layer = with_walls(std::move(scene.layers[std::size_t(k)]), *rampart, config);
+    Layer layer = std::move(scene.layers[std::size_t(k)]);
+    if (k < walled) layer = with_walls(std::move(layer), *rampart, config);
     OrderState state{.extruder = first_of_layer[std::size_t(k)], .at = {}, .seams = {}};
     PlanScene around = plan_scene(scene.slices, use, config, *rampart, k);
-    if (!rampart->empty()) around.site.part = scene.slices.outlines[std::size_t(k)];
+    if (k >= walled) around.site = {};
+    if (!around.site.part.empty()) around.site.part = scene.slices.outlines[std::size_t(k)];
     planned[std::size_t(k)].emplace(std::move(layer), state, config, around, visibility);
   };
   const auto take = [&](int k) {
