@@ -166,7 +166,9 @@ std::vector<Path> PrintedRampart::paths(int layer) const {
     for (WallPrinter& brim : brims) brim.road = roads(config_, brim.extruder, 0, slab).skirt_brim;
     double spacing = 0;
     for (const WallPrinter& brim : brims) spacing = std::max(spacing, spacing_mm(brim.road));
-    paths = wall_brims(walls, brims, config_.rampart_brim_width_mm, config_.rampart_gap_mm, spacing);
+    const double width = config_.rampart_brim_width_mm;
+    paths = split_ ? half_wall_brims(walls.front(), {brims[0], brims[1]}, width, spacing, to_second_mm(config_, use_))
+                   : wall_brims(walls, brims, width, config_.rampart_gap_mm, spacing);
     const Polygons room = common_reach(config_, use_.extruders);
     std::erase_if(paths, [&](const Path& loop) { return !within(loop, room); });
   }

@@ -29,6 +29,7 @@ PackedPolygons::PackedPolygons(const Polygons& region) {
 
 PackedPolygons::operator Polygons() const {
   Polygons region;
+  if (words_.empty()) return region;
   region.reserve(size());
   const std::int32_t* coordinate = words_.data() + 1 + size();
   for (std::size_t i = 0; i < size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 namespace cleancolor {
 namespace {
@@ -37,6 +38,17 @@ std::vector<std::vector<Vec2>> pieces_beyond(const std::vector<Vec2>& ring, Vec2
     if (in && !next_in) pieces.back().push_back(cut(i));
   }
   return pieces;
+}
+
+/// From the inside out.
+std::vector<Polygons> brim_loops(const Polygons& wall, double width_mm, double spacing_mm) {
+  std::vector<Polygons> result;
+  for (int i = 1; i <= int(width_mm / spacing_mm); ++i) {
+    result.emplace_back();
+    for (const Ring& ring : offset(wall, spacing_mm * i, Corners::round))
+      if (ClipperLib::Orientation(ring)) result.back().push_back(ring);
+  }
+  return result;
 }
 
 }  // namespace
@@ -74,10 +86,17 @@ std::vector<Path> wall_brims(std::span<const Polygons> walls, std::span<const Wa
   std::vector<Path> paths;
   for (std::size_t k = 0; k < walls.size(); ++k) {
     const double width = k + 1 < walls.size() ? std::min(width_mm, (gap_mm - spacing_mm) / 2) : width_mm;
-    for (int i = 1; i <= int(width / spacing_mm); ++i)
-      for (const Ring& ring : offset(walls[k], spacing_mm * i, Corners::round))
-        if (ClipperLib::Orientation(ring)) paths.push_back(wall_path(to_mm(ring), true, printers[k]));
+    for (const Polygons& loops : brim_loops(walls[k], width, spacing_mm))
+      for (const Ring& ring : loops) paths.push_back(wall_path(to_mm(ring), true, printers[k]));
   }
+  return paths;
+}
+
+std::vector<Path> half_wall_brims(const Polygons& wall, const std::array<WallPrinter, 2>& printers, double width_mm,
+                                  double spacing_mm, Vec2 to_second) {
+  std::vector<Path> paths;
+  for (const Polygons& loops : brim_loops(wall, width_mm, spacing_mm))
+    std::ranges::move(half_wall_paths(loops, printers, to_second), std::back_inserter(paths));
   return paths;
 }
 

@@ -33,4 +33,8 @@ std::vector<Path> half_wall_paths(const Polygons& wall, const std::array<WallPri
 std::vector<Path> wall_brims(std::span<const Polygons> walls, std::span<const WallPrinter> printers, double width_mm,
                              double gap_mm, double spacing_mm);
 
+/// The same around the one wall of two, each loop cut into halves as the wall is: no idle nozzle hovers over the part.
+std::vector<Path> half_wall_brims(const Polygons& wall, const std::array<WallPrinter, 2>& printers, double width_mm,
+                                  double spacing_mm, Vec2 to_second);
+
 }  // namespace cleancolor

@@ -81,6 +81,29 @@ TEST(ReplanProgram, HandsOnBinaryFilesWithAHint) {
   EXPECT_EQ(file_text(folder.path("in.gcode")), binary);
 }
 
+// The real slicer calls the program, once with a relative path of its output and once with an absolute one.
+TEST(ReplanProgram, IsThePostProcessingScriptOfPrusaSlicer) {
+  if (std::system("prusa-slicer --help > /dev/null 2>&1") != 0) GTEST_SKIP() << "prusa-slicer is not installed";
+  const TestFolder folder;
+  folder.file("dual.ini",
+              "nozzle_diameter = 0.4,0.4\nextruder_offset = 0x0,33x0\nfilament_diameter = 1.75,1.75\n"
+              "bed_shape = 0x0,225x0,225x145,0x145\nretract_length = 0.5,0.5\ntemperature = 220,220\n"
+              "perimeter_extruder = 1\ninfill_extruder = 2\nsolid_infill_extruder = 2\nwipe = 0,0\n");
+  const auto slice = [&](const std::string& output) {
+    const std::string command = fmt::format(
+        "cd '{}' && prusa-slicer --load dual.ini --center 112,72 -g -o '{}' --post-process '{} replan "
+        "--post-process' {}/models/4-cones_white.stl > slicer.txt 2>&1",
+        folder.path("."), output, CLEANCOLOR_PROGRAM, CLEANCOLOR_ROOT);
+    EXPECT_EQ(std::system(command.c_str()), 0) << file_text(folder.path("slicer.txt"));
+    return file_text(folder.path("out.gcode"));
+  };
+  for (const std::string& output : {std::string("out.gcode"), folder.path("out.gcode")}) {
+    const std::string text = slice(output);
+    EXPECT_NE(text.find("; replanned by cleancolor "), text.npos);
+    EXPECT_NE(text.find(";RAMPART_WALL"), text.npos);
+  }
+}
+
 TEST(ReplanProgram, TellsWhatItDoesNotUnderstand) {
   const TestFolder folder;
   folder.file("in.gcode", sliced());

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 namespace cleancolor::test {
@@ -42,14 +41,14 @@ pid_t started(const TestFolder& folder, const std::vector<std::string>& argument
 }
 
 Outcome run(const TestFolder& folder, const std::vector<std::string>& arguments, const std::function<void()>& prepare) {
-  const auto from = std::chrono::steady_clock::now();
   const pid_t child = started(folder, arguments, prepare);
   int status = 0;
   rusage usage{};
   Outcome outcome;
   if (::wait4(child, &status, 0, &usage) != child) return outcome;
   if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  const auto seconds = [](const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
+  outcome.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   outcome.peak_mb = double(usage.ru_maxrss) / 1024;
   outcome.out = file_text(folder.path(out_name));
   outcome.err = file_text(folder.path(err_name));

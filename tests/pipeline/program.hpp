@@ -16,7 +16,7 @@ namespace cleancolor::test {
 struct Outcome {
   int exit_code = -1;  // -1: ended by a signal
   std::string out, err;
-  double seconds = 0;
+  double cpu_seconds = 0;  // whatever else the machine does
   double peak_mb = 0;
 };
 

@@ -99,3 +99,17 @@ TEST(WallBrims, SurroundEachWallFromTheInsideOut) {
   EXPECT_NEAR(box_of(loops, 0).max.x, 12, 1e-6);
   EXPECT_TRUE(wall_brims(walls, printers, 0, 4, 0.5).empty());
 }
+
+TEST(HalfWallBrims, LeaveTheIdleNozzleBesideThePart) {
+  // Closer together than the ring is wide: beside a whole loop the second nozzle would hang over the part.
+  const Polygons wall = rectangle({0, 0}, {20, 10});
+  const std::vector<Path> loops = half_wall_brims(wall, printers, 2, 0.5, {15, 0});
+  ASSERT_EQ(loops.size(), 8U) << "two halves of four loops";
+  EXPECT_NEAR(box_of(loops, 0).min.x, 9.5, 1e-6);
+  EXPECT_NEAR(box_of(loops, 0).max.x, 22, 1e-6);
+  EXPECT_NEAR(box_of(loops, 1).min.x, -2, 1e-6);
+  EXPECT_NEAR(box_of(loops, 1).max.x, 10.5, 1e-6);
+  double whole = 0;
+  for (const Path& loop : wall_brims(std::array{wall}, printers, 2, 4, 0.5)) whole += length_mm(loop);
+  EXPECT_NEAR(length_of(loops, 0) + length_of(loops, 1), whole + 4 * 2, 1e-6);
+}

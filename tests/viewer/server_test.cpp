@@ -199,7 +199,7 @@ TEST(ViewerClients, KeepNoServerFromStopping) {
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   const auto since = std::chrono::steady_clock::now();
   server.reset();
-  EXPECT_LT(std::chrono::steady_clock::now() - since, std::chrono::seconds(3));
+  EXPECT_LT(std::chrono::steady_clock::now() - since, std::chrono::seconds(8));  // not their patience of 10 s
 }
 
 TEST(ViewerClients, AreCutOffWhereTheyTrickle) {

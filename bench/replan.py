@@ -1,0 +1,173 @@
+"""What re-planning makes of other slicers' G-code: whether it is the same print, and how clean it comes out.
+
+Every slicer prints the pairs of ../shared/models/paper by the command lines of ../shared/peers; `cleancolor replan` re-plans
+the files, `cleancolor audit` judges both (scenario worst), and this script itself reads both and compares their roads. What
+must hold is said at the end; exit code 1 where something does not. Needs what `scripts/setup peers` installs.
+"""
+
+import argparse
+import collections
+import math
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import models
+from judge import audited_once, figure, two_at_a_time
+from markdown import replace_between_markers
+from peers import OFFSETS, VARIANTS, require_shared, sliced
+
+DOCUMENT = models.ROOT / "docs" / "replan.md"
+SLICERS = {"prusa": "PrusaSlicer", "slic3r": "Slic3r", "cura": "CuraEngine"}
+# Of plain files: shares of the input's figures, and what is little enough.
+SMEAR, LITTLE_SMEAR_MM3, HOLES, TIME = 1 / 8, 0.2, 1 / 4, 1.30
+FILAMENT = 1e-4  # of each nozzle and type of road
+AUXILIARY = ("skirt", "brim", "tower", "custom", "wipe")
+NEAR_MM = 0.003  # ends of roads are rounded to 0.001 mm
+SEAM_GAP_MM = 0.1  # that slicers leave where a loop ends, and some rounding
+
+WORD = re.compile(r"([XYZE])(-?[0-9.]+)")
+
+
+def roads(gcode):
+    """{(tool, z): Counter of ((x, y), (x, y))} and {(tool, type): filament, mm} of the part; ends in the file's coordinates."""
+    placed, filament = collections.defaultdict(collections.Counter), collections.Counter()
+    at, relative, tool, kind = {"X": 0.0, "Y": 0.0, "Z": 0.0, "E": 0.0}, False, 0, ""
+    for line in gcode.read_text(errors="replace").splitlines():
+        if line.startswith((";TYPE:", "; TYPE:")):
+            kind = line.split(":", 1)[1].lower()
+        elif line.startswith(("G0", "G1")):
+            words = {axis: float(value) for axis, value in WORD.findall(line.split(";", 1)[0])}
+            fed = words.get("E", 0.0) - (0.0 if relative or "E" not in words else at["E"])
+            to = {**at, **words}
+            if relative:
+                to["E"] = at["E"] + words.get("E", 0.0)
+            ends = (at["X"], at["Y"]), (to["X"], to["Y"])
+            if fed > 0 and ends[0] != ends[1] and not any(word in kind for word in AUXILIARY):
+                placed[tool, round(to["Z"], 3)][min(ends), max(ends)] += 1
+                filament[tool, kind] += fed
+            at = to
+        elif line.startswith("G92"):
+            at.update({axis: float(value) for axis, value in WORD.findall(line)})
+        elif line.startswith(("M82", "M83")):
+            relative = line.startswith("M83")
+        elif found := re.match(r"(?:T|M135 T|M108 T)(\d+)", line):
+            tool = int(found[1])
+    return placed, filament
+
+
+def lies_on(shorter, longer):
+    """Whether both ends of the shorter road are on the line of the longer."""
+    (ax, ay), (bx, by) = longer
+    return all(abs((x - ax) * (by - ay) - (y - ay) * (bx - ax)) < NEAR_MM * math.dist(*longer) for x, y in shorter)
+
+
+def uncovered_mm(road, others):
+    """The longest piece of a road that no other lies on."""
+    (ax, ay), (bx, by) = road
+    length = math.dist(*road)
+    ux, uy = (bx - ax) / length, (by - ay) / length
+    covered = []
+    for other in others:
+        along = sorted((x - ax) * ux + (y - ay) * uy for x, y in other)
+        if along[1] > 0 and along[0] < length and lies_on(*sorted((road, other), key=lambda ends: math.dist(*ends))):
+            covered.append(along)
+    longest = reached = 0.0
+    for begin, end in sorted(covered):
+        longest, reached = max(longest, begin - reached), max(reached, end)
+    return max(longest, length - reached)
+
+
+def lost_roads(before, after):
+    """Roads of the one that do not lie on those of the other, but for the gap that a loop has where it ends."""
+    lost = []
+    for place in before.keys() | after.keys():
+        old, new = before.get(place, collections.Counter()), after.get(place, collections.Counter())
+        gone, come = list((old - new).elements()), list((new - old).elements())
+        lost += [(place, road) for road in gone if uncovered_mm(road, come) > SEAM_GAP_MM]
+        lost += [(place, road) for road in come if uncovered_mm(road, gone) > SEAM_GAP_MM]
+    return lost
+
+
+def same_print(before, after):
+    """Sentences on what is not the same of the part."""
+    (old_roads, old_filament), (new_roads, new_filament) = roads(before), roads(after)
+    faults = []
+    for key in old_filament.keys() | new_filament.keys():
+        if abs(old_filament[key] - new_filament[key]) > FILAMENT * old_filament[key] + 1e-3:
+            faults.append(f"nozzle {key[0]}, {key[1]}: {old_filament[key]:.2f} mm of filament became {new_filament[key]:.2f}")
+    lost = lost_roads(old_roads, new_roads)
+    if lost:
+        faults.append(f"{len(lost)} roads differ, the first of nozzle {lost[0][0][0]} at z {lost[0][0][1]}: {lost[0][1]}")
+    return faults
+
+
+def replanned(program, gcode, variant):
+    """The re-planned file and the seconds it took, or the reason why there is none."""
+    output = gcode.with_name(gcode.name.replace(".gcode", ".replanned.gcode"))
+    output.unlink(missing_ok=True)
+    begin = time.monotonic()
+    done = subprocess.run([program, "replan", gcode, "-o", output, "--nozzle-offset", OFFSETS, "--offsets-in",
+                           "firmware" if "fwoffset" in variant else "slicer", "--quiet"],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    seconds = time.monotonic() - begin
+    if done.returncode != 0:
+        return None, seconds, done.stderr.strip().rpartition(".gcode: ")[2].splitlines()[-1]
+    return output, seconds, ""
+
+
+def judged_row(program, name, slicer, variant):
+    """One row of the table, and what does not hold of it."""
+    before = sliced(program, name, slicer, variant)
+    title = f"{name}, {SLICERS[slicer]} {variant}"
+    after, seconds, reason = replanned(program, before, variant)
+    if not after:
+        return f"| {title} | left as it is: {reason} | | | |", [f"{title}: {reason}"]
+    faults = same_print(before, after)
+    old, new = (audited_once(program, file, variant) for file in (before, after))
+    pairs = {key: (figure(old, key), figure(new, key)) for key in ("smear_volume", "hole_volume")}
+    minutes = [j["print"]["time_s"] / 60 for j in (old, new)]
+    (old_smear, smear), (old_holes, holes) = pairs.values()
+    if variant == "plain":
+        if smear > SMEAR * old_smear and smear >= LITTLE_SMEAR_MM3:
+            faults.append(f"smears {smear:.2f} of {old_smear:.2f} mm3")
+        if holes > HOLES * old_holes:
+            faults.append(f"holes {holes:.2f} of {old_holes:.2f} mm3")
+        if minutes[1] > TIME * minutes[0]:
+            faults.append(f"takes {minutes[1]:.0f} instead of {minutes[0]:.0f} min")
+    elif smear + holes > old_smear + old_holes:
+        faults.append(f"smears and holes {smear + holes:.2f} instead of {old_smear + old_holes:.2f} mm3")
+    row = (f"| {title} | {old_smear:.2f} / {smear:.2f} | {old_holes:.2f} / {holes:.2f} | {minutes[0]:.0f} / {minutes[1]:.0f} | "
+           f"{seconds:.1f} |")
+    return row, [f"{title}: {fault}" for fault in faults]
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="scripts/bench replan", description=__doc__)
+    parser.add_argument("--models", default=",".join(models.PAIRS), help="comma-separated, of: " + ", ".join(models.PAIRS))
+    parser.add_argument("--program", type=Path, help="our program (default: the release build, made first)")
+    parser.add_argument("--every-variant", action="store_true", help="all that ../shared/peers can make, not only plain files")
+    parser.add_argument("--write", action="store_true", help="write the table of docs/replan.md")
+    options = parser.parse_args()
+    models.require(options.models, models.PAIRS, "scripts/bench replan")
+    require_shared("scripts/bench replan")
+    rows = [(options.program, name, slicer, variant) for slicer, variants in VARIANTS.items()
+            for variant in (variants if options.every_variant else variants[:1]) for name in options.models.split(",")]
+    table = ["| file | smears, mm3, before / after | holes, mm3 | time, min | seconds |", "|---|---|---|---|---|"]
+    failures = []
+    print(*table, sep="\n")
+    for row, faults in two_at_a_time(judged_row, rows):
+        print(row, flush=True)
+        table.append(row)
+        failures += faults
+    if options.write:
+        replace_between_markers(DOCUMENT, "scripts/bench replan --write", "\n".join(table) + "\n")
+    print(*failures, sep="\n")
+    print(f"{len(rows)} files, {len(failures)} bars fail" if failures else f"{len(rows)} files; all bars hold")
+    sys.exit(bool(failures))
+
+
+if __name__ == "__main__":
+    main()
