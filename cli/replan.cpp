@@ -69,7 +69,7 @@ void replan(const ReplanCommand& command, Console& console, std::ostream& out) {
                                       .removes_shield = command.removes_shield,
                                       .threads = threads},
                                      progress);
-  if (!result.changed) progress.warn(fmt::format("{}: it was re-planned before, and stays as it is", print.name));
+  if (!result.changed) progress.warn(fmt::format("{}: {}; it stays as it is", print.name, result.reason));
   if (command.dry_run) {
     const GcodePrint after = read_gcode(result.text, print.name);
     const std::string table = comparison(print, after, machine, threads, progress);

@@ -131,6 +131,8 @@ Path joined(Path path) {
   // The stroke outwards still has the inner loop's road.
   const Vec2 begin = result.points.front(), end = result.points.back();
   const std::size_t outer_from = result.points.size();
+  result.inner_source = inner.source;
+  result.outer_from = std::uint32_t(outer_from);
   result.points.insert(result.points.end(), path.points.begin(), path.points.end());
   result.points.push_back(path.start());
   append_stretches(result, path, 0, path.points.size(), outer_from);

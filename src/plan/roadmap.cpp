@@ -53,7 +53,7 @@ void add_entries(const Path& path, Vec2 offset_mm, const TravelCost& cost, const
     best.node = nodes.add(at_mm - offset_mm);
     if (begins_outer_wall(path)) {
       best.ahead = visibility_ahead(path, best.segment, best.at_mm, cost.map());
-      best.lead_mm = options.leads ? lead_mm(path, best.segment, best.at_mm, loops) : 0;
+      best.lead_mm = options.leads && path.source < 0 ? lead_mm(path, best.segment, best.at_mm, loops) : 0;
     }
     entries.push_back(best);
   };
@@ -261,7 +261,7 @@ Roadmap roadmap(std::span<const Path> paths, const TravelCost& cost, const Roadm
       entries.push_back({.node = nodes.add(path.points.back() - offset), .segment = last, .at_mm = path.points.back()});
     } else if (options.fixed_seams || path.road().role == Role::rampart) {
       entries.push_back({.node = nodes.add(path.start() - offset), .segment = 0, .at_mm = path.start()});
-      const bool leads = options.leads && path.island >= 0 && begins_outer_wall(path);
+      const bool leads = options.leads && path.source < 0 && path.island >= 0 && begins_outer_wall(path);
       if (leads) entries.back().lead_mm = lead_mm(path, 0, path.start(), loops[{path.extruder, path.island}]);
     } else {
       add_entries(path, offset, cost, options, nodes, loops[{path.extruder, path.island}], entries);

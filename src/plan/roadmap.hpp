@@ -54,7 +54,7 @@ struct RoadmapOptions {
   double pathway_mm = 2;      // between nodes of pathways
   double margin_mm = 6;       // beyond the paths
   bool fixed_seams = false;   // closed paths are entered at their start alone
-  bool leads = true;          // outer walls without inner loop may begin and end inside
+  bool leads = true;          // outer walls without inner loop may begin and end inside, but for those of a source
 };
 
 /// The roadmap of a layer whose paths are printed in this order. Closed paths of the rampart are entered at their start

@@ -17,9 +17,12 @@
 #include "printed/regions.hpp"
 #include "printed/zones.hpp"
 #include "protection.hpp"
+#include "replan/columns.hpp"
 #include "replan/cura.hpp"
 #include "replan/kept_shield.hpp"
+#include "replan/leads.hpp"
 #include "replan/staged_layer.hpp"
+#include "replan/walled_layers.hpp"
 #include "toolpath/roads.hpp"
 
 namespace cleancolor {
@@ -220,6 +223,14 @@ std::vector<Polygons> reaches(const Scene& scene, const Config& config) {
   return result;
 }
 
+/// So far that each has its own rampart.
+double columns_apart_mm(const Config& config) {
+  const bool split = config.rampart_walls == RampartWalls::split && config.extruders.size() == 2;
+  const double walls = split ? 1 : double(config.extruders.size());
+  return 2 * (config.ooze_shield_dist_mm + (walls - 1) * config.rampart_gap_mm +
+              config.extruders.front().nozzle_diameter_mm);
+}
+
 /// What slicers do without colour protection, to compare.
 std::vector<Layer> in_plain_order(Scene& scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
                                   const Config& config) {
@@ -275,10 +286,10 @@ Config planning_config(const GcodePrint& print, const AuditMachine& machine, con
   config.idle_nozzle = machine.idle_nozzle;
   config.planner = Planner::clean;
   config.seam_position = SeamPosition::hidden;
-  config.join_perimeters = false;
+  config.join_perimeters = true;
   config.heater_off_after_last_use = false;  // the file's own temperatures hold
   config.rampart = RampartShape::automatic;
-  config.refill_mode = RefillMode::off;
+  config.refill_mode = RefillMode::model;
   return config;
 }
 
@@ -320,8 +331,8 @@ Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodeP
   return path;
 }
 
-std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
-                                  Config config, const ReplanOptions& options, const Progress& progress) {
+ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
+                               Config config, const ReplanOptions& options, const Progress& progress) {
   progress.advance("regions", 0);
   Scene scene = scene_of(recovered, print, machine, options.threads);
   require_part(scene, print);
@@ -333,12 +344,17 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
         for (const FilePoint p : recovered.layers[k].runs[i].way)
           path.travel.push_back(place_mm(p, path.extruder, machine));
       }
-    return std::move(scene.layers);
+    return {std::move(scene.layers)};
   }
   if (scene.has_shield || recovered.keeps_tools) config.rampart = RampartShape::off;
   const Use use(scene.slices);
   if (use.extruders.size() < 2)
     throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));
+  const bool stands_apart = columns(scene.around, columns_apart_mm(config)).size() > 1;
+  std::optional<Slices> column;
+  if (options.rampart == RampartExtent::column) column = shortest_column(scene.around, columns_apart_mm(config));
+  if (column) scene.around = std::move(*column);
+  if (options.rampart != RampartExtent::all && !column) config.rampart = RampartShape::off;
   std::optional<PrintedRampart> rampart;
   try {
     rampart.emplace(scene.around, use, config, options.threads);
@@ -349,7 +365,7 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
   }
   std::vector<double> height_mm;
   for (const Slab& slab : scene.slices.slabs) height_mm.push_back(slab.height_mm);
-  if (config.planner == Planner::plain) return in_plain_order(scene, *rampart, recovered, config);
+  if (config.planner == Planner::plain) return {in_plain_order(scene, *rampart, recovered, config), !rampart->empty()};
   const SurfaceVisibility visibility(scene.slices.outlines, height_mm, {.threads = options.threads}, progress);
   const int first = recovered.layers.front().runs.front().tool;
   std::vector<int> first_of_layer = first_extruders(printing_by_layer(scene.slices), first);
@@ -361,9 +377,15 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
   std::vector<std::optional<StagedLayer>> planned{std::size_t(count)};
   std::vector<Layer> result;
   Path below;
+  LeadOptions leads;
+  for (int e = 0; e < int(config.extruders.size()); ++e) leads.hop.push_back(hop_time(config, e));
+  const int walled = walled_layers(scene.layers, leads.ooze);
   const auto plan = [&](int k) {
-    Layer layer = with_walls(std::move(scene.layers[std::size_t(k)]), *rampart, config);
+    Layer layer = std::move(scene.layers[std::size_t(k)]);
+    if (k < walled) layer = with_walls(std::move(layer), *rampart, config);
     PlanScene around = plan_scene(scene.slices, use, config, *rampart, k);
+    if (k >= walled) around.site = {};
+    if (!around.site.part.empty()) around.site.part = scene.slices.outlines[std::size_t(k)];
     if (scene.has_shield) around.site = {use.hot(k, config), scene.slices.outlines[std::size_t(k)]};
     planned[std::size_t(k)].emplace(std::move(layer), first_of_layer[std::size_t(k)], scene.stops[std::size_t(k)],
                                     config, around, visibility);
@@ -376,13 +398,15 @@ std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePr
           fmt::format("{}: layer {}: tools do not change in the order that is planned; such files are not "
                       "re-planned yet",
                       print.name, k + 1));
-    below = own->last();
-    result.push_back(std::move(*own).release());
+    Path last = own->last();
+    result.push_back(with_leads(std::move(*own).release(), unpacked(scene.slices.regions[std::size_t(k)]),
+                                below.points.empty() ? nullptr : &below, leads));
+    below = std::move(last);
     own.reset();
     progress.advance("planning", double(k + 1) / count);
   };
   run({.count = count, .window = 3 * options.threads + 4, .stages = {{0, plan}}, .consume = take}, options.threads);
-  return result;
+  return {std::move(result), !rampart->empty(), stands_apart};
 }
 
 }  // namespace cleancolor

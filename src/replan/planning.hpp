@@ -16,6 +16,7 @@
 #include "base/progress.hpp"
 #include "model/config.hpp"
 #include "replan/recovered.hpp"
+#include "replan/worth.hpp"
 #include "toolpath/path.hpp"
 
 namespace cleancolor {
@@ -34,12 +35,20 @@ Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodeP
 
 struct ReplanOptions {
   bool plans = true;  // false: order, starts and ways stay those of the file
+  RampartExtent rampart = RampartExtent::all;
   int threads = 1;
 };
 
+struct ReplannedLayers {
+  std::vector<Layer> layers;
+  bool has_rampart = false;
+  bool stands_apart = false;  // the part, in several columns (replan/columns.hpp)
+};
+
 /// The layers in printing order: Path::source is the run of the layer that a path is, -1 that of a rampart or refill.
-/// Without room for the rampart it is left out, with a warning.  Same result for any number of threads.
-std::vector<Layer> planned_layers(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
-                                  Config config, const ReplanOptions& options, const Progress& progress);
+/// Without room for the rampart it is left out, with a warning; around one column also where there is but one.
+/// Same result for any number of threads.
+ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
+                               Config config, const ReplanOptions& options, const Progress& progress);
 
 }  // namespace cleancolor

@@ -32,8 +32,10 @@ struct ReplanRequest {
 
 struct Replanned {
   std::string text;     // of the file
-  bool changed = true;  // false: it had been re-planned before, and is as it was
-  double time_s = 0;    // predicted, of both
+  bool changed = true;  // false: it is as it was, for this reason
+  std::string reason = {};
+  bool has_rampart = false;
+  double time_s = 0;  // predicted, of both
   double old_time_s = 0;
   double removed_mm3 = 0;  // of plastic: the shield
 };

@@ -69,6 +69,21 @@ TEST(ReplanPrusaSlicer, PrintsEveryRoadOnceButForSeamsThatMoved) {
   EXPECT_NEAR(added_mm, missing_mm, 0.01 * 2 * 2 * 8);
 }
 
+/// Outer walls of the part that begin after a way, not out of an inner loop.
+int lone_outer_starts(const std::string& text) {
+  const GcodePrint print = read_gcode(text, "");
+  int starts = 0;
+  for (std::size_t i = 1; i < print.moves.size(); ++i)
+    starts += lays_plastic(print, i) && print.moves[i].role == Role::external_perimeter && !lays_plastic(print, i - 1);
+  return starts;
+}
+
+TEST(ReplanPrusaSlicer, LetsInnerLoopsGoOverIntoOuterWallsWithoutAStop) {
+  EXPECT_GE(lone_outer_starts(bar()), 2 * 8);
+  EXPECT_EQ(lone_outer_starts(bar_replanned()), 0);
+  EXPECT_LE(cleanness(bar_replanned()).hole_mm3, cleanness(bar()).hole_mm3 / 20);
+}
+
 TEST(ReplanPrusaSlicer, WithOrderAndTravelKeptMakesTheSameMoves) {
   for (const std::string& text : {bar(), with_relative_e(bar())}) {
     const GcodePrint before = read_gcode(text, ""),

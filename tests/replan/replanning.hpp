@@ -12,6 +12,7 @@
 #include "audit/audit.hpp"
 #include "reader/read.hpp"
 #include "replan/replan.hpp"
+#include "replan/worth.hpp"
 #include "support_errors.hpp"
 
 namespace cleancolor::test {
@@ -79,9 +80,6 @@ inline double length_mm(const RoadKey& road) {
 }
 
 /// Of worst, as the audit counts.
-struct Cleanness {
-  double smear_mm3 = 0, hole_mm3 = 0, time_s = 0;
-};
 inline Cleanness cleanness(const std::string& text, const MachineRequest& where = {}) {
   const GcodePrint print = read_gcode(text, "print.gcode");
   const AuditResult result = audit(print, audit_machine(print, where));

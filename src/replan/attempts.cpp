@@ -1,0 +1,107 @@
+#include "replan/attempts.hpp"
+
+#include <fmt/format.h>
+
+#include "audit/timeline.hpp"
+#include "base/error.hpp"
+#include "reader/read.hpp"
+#include "replan/cura.hpp"
+#include "replan/dialect_words.hpp"
+#include "replan/found_roles.hpp"
+#include "replan/heaters.hpp"
+#include "replan/kept_shield.hpp"
+#include "replan/planning.hpp"
+#include "replan/same_print.hpp"
+#include "replan/written.hpp"
+
+namespace cleancolor {
+namespace {
+
+std::string header_line(const ReplanRequest& request, bool has_rampart) {
+  std::string what = request.keeps_order ? "order and travel kept" : "order and travel ";
+  if (!request.keeps_order) {
+    what += request.protection == ReplanProtection::full ? "planned" : "plain";
+    what += has_rampart ? ", rampart added" : ", no rampart";
+  }
+  return fmt::format("{}{}: {}; paths and settings as sliced", replanned_mark, CLEANCOLOR_VERSION, what);
+}
+
+}  // namespace
+
+Attempts::Attempts(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request,
+                   const Progress& progress)
+    : print_(print),
+      machine_(machine),
+      request_(request),
+      progress_(progress),
+      config_(planning_config(print, machine, request.printer ? &*request.printer : nullptr)) {
+  if (request.protection == ReplanProtection::none || request.keeps_order) config_.rampart = RampartShape::off;
+  if (request.protection != ReplanProtection::full) config_.planner = Planner::plain;
+  if (print.facts.dialect == Dialect::slic3r && !tells_roles(print)) {
+    if (request.removes_shield)
+      throw Error(fmt::format("{}: it does not say which roads are a shield; slice without it", print.name));
+    with_roles_ = with_found_roles(print, machine);
+  }
+  if (print.facts.dialect == Dialect::cura && !request.printer && config_.rampart != RampartShape::off)
+    progress.warn(
+        fmt::format("{}: the file does not say how large the bed is; {:g} mm around the print are taken to be "
+                    "free for the rampart: name the printer (--printer) to be sure",
+                    print.name, cura_free_mm));
+  recovered_ = recovered_print(source());
+  if (request.removes_shield) removed_mm_ = remove_shield(recovered_, source());
+}
+
+Attempt Attempts::with(RampartExtent extent) const {
+  ReplannedLayers planned =
+      planned_layers(recovered_, source(), machine_, config_,
+                     {.plans = !request_.keeps_order, .rampart = extent, .threads = request_.threads}, progress_);
+  progress_.advance("writing", 0);
+  Attempt made{
+      .text = written(recovered_, source(), machine_, config_, planned.layers,
+                      {.as_in_file = request_.keeps_order, .header = header_line(request_, planned.has_rampart)}),
+      .print = {},
+      .has_rampart = planned.has_rampart,
+      .stands_apart = planned.stands_apart};
+  made.print = read_gcode(made.text, print_.name);
+  const DialectWords& words = *words_of(print_.facts.dialect);
+  if (words.times_heaters && sets_temperatures(recovered_, print_)) {
+    made.text = with_heaters(recovered_, print_, made.print, machine_, words.layer_begins.front());
+    made.print = read_gcode(made.text, print_.name);
+  }
+  if (const auto what = difference(print_, made.print, machine_, removed_mm_))
+    throw Error(
+        fmt::format("{}: re-planned it would not be the same print: {}; the file is left as it is. Please "
+                    "report it",
+                    print_.name, *what));
+  return made;
+}
+
+std::optional<Attempt> Attempts::best() const {
+  Attempt best = with(RampartExtent::all);
+  const Cleanness before = judged(print_);
+  best.cleanness = judged(best.print);
+  const std::vector<RampartExtent> others =
+      best.has_rampart ? worth_trying(best.cleanness, before, config_) : std::vector<RampartExtent>{};
+  const bool stands_apart = best.stands_apart;
+  for (const RampartExtent extent : others) {
+    if (extent == RampartExtent::column && !stands_apart) continue;
+    Attempt other = with(extent);
+    other.cleanness = judged(other.print);
+    if (print_cost(other.cleanness, before, config_) < print_cost(best.cleanness, before, config_))
+      best = std::move(other);
+  }
+  if (!is_worth_it(best.cleanness, before, config_)) return std::nullopt;
+  return best;
+}
+
+double Attempts::removed_mm3() const {
+  double sum = 0;
+  for (std::size_t t = 0; t < removed_mm_.size(); ++t) sum += removed_mm_[t] * filament_area_mm2(machine_, int(t));
+  return sum;
+}
+
+Cleanness Attempts::judged(const GcodePrint& print) const {
+  return cleanness(print, machine_, request_.threads, progress_);
+}
+
+}  // namespace cleancolor

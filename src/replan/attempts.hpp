@@ -1,0 +1,59 @@
+// replan/attempts.hpp
+//
+// Attempts: a print planned in several ways, and the one of them that is worth most (replan/worth.hpp).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "replan/recovered.hpp"
+#include "replan/replan.hpp"
+#include "replan/worth.hpp"
+
+namespace cleancolor {
+
+/// Begins the line in the head of a re-planned file.
+inline constexpr std::string_view replanned_mark = "; replanned by cleancolor ";
+
+/// The print as one plan makes it.
+struct Attempt {
+  std::string text;
+  GcodePrint print;
+  bool has_rampart = false, stands_apart = false;
+  Cleanness cleanness = {};
+};
+
+class Attempts {
+ public:
+  /// Throws Error for files that cannot be re-planned for sure.  Requires: what is given lives as long.
+  Attempts(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request,
+           const Progress& progress);
+
+  /// Throws Error where the result would not be the same print.
+  Attempt with(RampartExtent extent) const;
+
+  /// The one that costs least; nothing where the file itself does.
+  std::optional<Attempt> best() const;
+
+  bool tells_progress() const { return !recovered_.progress_line.empty() || recovered_.elapsed_lines > 0; }
+
+  /// Of plastic: the shield.
+  double removed_mm3() const;
+
+ private:
+  Cleanness judged(const GcodePrint& print) const;
+  const GcodePrint& source() const { return with_roles_ ? *with_roles_ : print_; }
+
+  const GcodePrint& print_;
+  const AuditMachine& machine_;
+  const ReplanRequest& request_;
+  const Progress& progress_;
+  Config config_;
+  std::optional<GcodePrint> with_roles_;  // where the file tells none
+  RecoveredPrint recovered_;
+  std::vector<double> removed_mm_;  // of each tool's filament
+};
+
+}  // namespace cleancolor

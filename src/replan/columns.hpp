@@ -1,0 +1,24 @@
+// replan/columns.hpp
+//
+// Columns: parts that stand apart from each other on the bed.
+//
+//   layers, what counts as apart  ->  the layers of the one column that a rampart is shortest around
+//
+// A column is what lies in one box seen from above; boxes that come too near to each other are one.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "slice/slices.hpp"
+
+namespace cleancolor {
+
+/// Their boxes.
+std::vector<Box<Vec2>> columns(const Slices& slices, double apart_mm);
+
+/// The same slices with the outlines of one column alone: of those that go up to the last layer the one with the
+/// shortest outlines. Nothing where all is one column, or none goes up so far. Regions stay those of the whole print.
+std::optional<Slices> shortest_column(const Slices& slices, double apart_mm);
+
+}  // namespace cleancolor

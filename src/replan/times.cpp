@@ -1,0 +1,90 @@
+#include "replan/times.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "model/text_scan.hpp"
+#include "replan/dialect_words.hpp"
+
+namespace cleancolor {
+namespace {
+
+constexpr std::size_t head_bytes = 4096;
+
+std::string duration_text(double seconds) {
+  const long all = std::lround(seconds);
+  const long d = all / 86400, h = all / 3600 % 24, m = all / 60 % 60, s = all % 60;
+  std::string text;
+  if (d > 0) text += fmt::format("{}d ", d);
+  if (d > 0 || h > 0) text += fmt::format("{}h ", h);
+  if (all >= 60) text += fmt::format("{}m ", m);
+  return text + fmt::format("{}s", s);
+}
+
+/// Cura: whole seconds in the head; its engine alone writes the same number each time.
+void correct_cura_head(std::string& text, double share) {
+  constexpr std::string_view placeholder = "6666";
+  for (const std::string_view tag : {";TIME:", ";PRINT.TIME:"}) {
+    const std::size_t at = text.substr(0, head_bytes).find(tag);
+    if (at == text.npos) continue;
+    const std::size_t begin = at + tag.size(), end = std::min(text.find('\n', begin), text.size());
+    const auto told_s = number<double>(std::string_view(text).substr(begin, end - begin));
+    if (!told_s || text.compare(begin, end - begin, placeholder) == 0) continue;
+    text.replace(begin, end - begin, fmt::format("{}", std::lround(*told_s * share)));
+  }
+}
+
+/// The slicer's own estimates, longer by as much as the print is.
+void correct_config_estimates(std::string& text, double told_s, double share) {
+  constexpr std::array<std::string_view, 2> tags = {"\n; estimated printing time (normal mode) = ",
+                                                    "\n; estimated printing time (silent mode) = "};
+  if (told_s <= 0) return;
+  for (const std::string_view tag : tags) {
+    const std::size_t at = text.rfind(tag);
+    if (at == text.npos) continue;
+    const std::size_t begin = at + tag.size(), end = std::min(text.find('\n', begin), text.size());
+    text.replace(begin, end - begin, duration_text(told_s * share));
+  }
+}
+
+}  // namespace
+
+std::string with_progress(const GcodePrint& after, const Timeline& time, double share) {
+  const std::string_view elapsed = words_of(after.facts.dialect)->elapsed;
+  const std::string_view text = *after.text;
+  std::string result;
+  result.reserve(text.size());
+  double done_s = 0;
+  std::size_t move = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    const bool tells_elapsed = !elapsed.empty() && line.starts_with(elapsed);
+    if (tells_elapsed || line.starts_with("M73 P"))
+      for (; move < after.moves.size() && after.moves[move].offset < at; ++move) done_s += time.duration_s[move];
+    if (tells_elapsed) {
+      result += fmt::format("{}{:.6f}", elapsed, done_s * share);
+    } else if (line.starts_with("M73 P")) {
+      const double left_s = std::max(0., time.print_time_s - done_s);
+      const bool ends = move == after.moves.size() || left_s < 1;
+      result += fmt::format("M73 P{}", ends ? 100 : std::min(99, int(100 * done_s / time.print_time_s)));
+      if (line.find(" R") != line.npos) result += fmt::format(" R{}", ends ? 0 : std::lround(left_s * share / 60));
+    } else {
+      result += line;
+    }
+    if (end < text.size()) result += '\n';
+    at = end + 1;
+  }
+  return result;
+}
+
+void correct_estimates(std::string& text, const GcodePrint& before, double longer) {
+  correct_config_estimates(text, before.facts.told_time_s, longer);
+  if (before.facts.dialect == Dialect::cura) correct_cura_head(text, longer);
+}
+
+}  // namespace cleancolor
