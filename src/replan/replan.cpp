@@ -15,9 +15,9 @@
 #include "replan/dialect_words.hpp"
 #include "replan/found_roles.hpp"
 #include "replan/heaters.hpp"
-#include "replan/kept_shield.hpp"
 #include "replan/planning.hpp"
 #include "replan/recovered.hpp"
+#include "replan/removed.hpp"
 #include "replan/same_print.hpp"
 #include "replan/written.hpp"
 
@@ -139,10 +139,10 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   const GcodePrint with_roles = finds_roles ? with_found_roles(print, machine) : GcodePrint{};
   const GcodePrint& source = finds_roles ? with_roles : print;
   RecoveredPrint recovered = recovered_print(source);
-  std::vector<double> removed_mm;
-  if (request.removes_shield) removed_mm = remove_shield(recovered, source);
-  for (std::size_t t = 0; t < removed_mm.size(); ++t)
-    result.removed_mm3 += removed_mm[t] * filament_area_mm2(machine, int(t));
+  RemovedFilament removed;
+  if (request.removes_shield) removed = remove_shield(recovered, source);
+  if (request.removes_tower) removed.merge(remove_tower(recovered, source));
+  for (const auto& [what, mm] : removed) result.removed_mm3 += mm * filament_area_mm2(machine, what.first);
   const std::vector<Layer> layers = planned_layers(
       recovered, source, machine, config, {.plans = !request.keeps_order, .threads = request.threads}, progress);
   progress.advance("writing", 0);
@@ -154,7 +154,7 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
     result.text = with_heaters(recovered, print, after, machine, words.layer_begins.front());
     after = read_gcode(result.text, print.name);
   }
-  if (const auto what = difference(print, after, machine, removed_mm))
+  if (const auto what = difference(print, after, machine, removed))
     throw Error(
         fmt::format("{}: re-planned it would not be the same print: {}; the file is left as it is. Please "
                     "report it",

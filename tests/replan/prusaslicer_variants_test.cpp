@@ -117,6 +117,31 @@ TEST(ReplanTower, StaysToTheLetter) {
   EXPECT_EQ(out.find(";RAMPART_WALL"), out.npos);
 }
 
+TEST(ReplanTower, IsRemovedOnRequestAndItsPlasticTold) {
+  const std::string text = variant("tower");
+  const Replanned result = replanned_text(text, {.removes_tower = true});
+  const GcodePrint before = read_gcode(text, ""), after = read_gcode(result.text, "");
+  double tower_mm = 0;
+  for (const auto& [what, mm] : kept_filament(before))
+    if (what.second == Role::wipe_tower) tower_mm += mm;
+  EXPECT_GT(tower_mm, 10);
+  EXPECT_NEAR(result.removed_mm3, tower_mm * filament_area_mm2(audit_machine(before, {}), 0), 0.01);
+  EXPECT_EQ(result.text.find(";TYPE:Wipe tower"), result.text.npos);
+  EXPECT_NE(result.text.find(";RAMPART_WALL"), result.text.npos);
+  EXPECT_EQ(part_filament(before).size(), part_filament(after).size());
+  for (const auto& [what, mm] : part_filament(before)) EXPECT_NEAR(part_filament(after).at(what), mm, 1e-4 * mm);
+  const std::size_t layers = result.text.find(";LAYER_CHANGE");
+  EXPECT_EQ(lines_that(result.text.substr(layers), {"M220"}).size(), 0u);
+  EXPECT_EQ(lines_that(text, {";END gcode"}).size(), lines_that(result.text, {";END gcode"}).size());
+}
+
+TEST(ReplanTower, WithACommandThatIsNotKnownIsNotRemoved) {
+  const std::string text = variant("tower");
+  const std::string other = with_line(text, "MOVE_AWAY", "M220 B", text.find(";TYPE:Wipe tower"));
+  EXPECT_ERROR(replanned_text(other, {.removes_tower = true}), "MOVE_AWAY");
+  EXPECT_NE(replanned_text(other).text.find("MOVE_AWAY"), std::string::npos);
+}
+
 TEST(ReplanTower, WithCountsOfEIsRefused) {
   EXPECT_ERROR(replanned_text(replaced(fixture("prusaslicer.gcode"), ";TYPE:Perimeter", ";TYPE:Wipe tower")),
                "relative E");
