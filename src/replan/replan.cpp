@@ -39,12 +39,12 @@ void require_known_dialect(const GcodePrint& print) {
                           print.name, producer_of(print)));
 }
 
-std::string header_line(const ReplanRequest& request) {
-  const char* what = request.keeps_order                               ? "order and travel kept"
-                     : request.protection == ReplanProtection::rampart ? "rampart added, order and travel plain"
-                     : request.protection == ReplanProtection::none    ? "order and travel plain, no rampart"
-                                                                       : "order and travel planned, rampart added";
-  return fmt::format("{}{}: {}; paths and settings as sliced", mark, CLEANCOLOR_VERSION, what);
+std::string header_line(const ReplanRequest& request, bool has_rampart) {
+  const char* what = request.keeps_order                            ? "order and travel kept"
+                     : request.protection != ReplanProtection::full ? "order and travel plain"
+                                                                    : "order and travel planned";
+  return fmt::format("{}{}: {}{}; paths and settings as sliced", mark, CLEANCOLOR_VERSION, what,
+                     has_rampart ? ", rampart added" : "");
 }
 
 std::string duration_text(double seconds) {
@@ -145,9 +145,12 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   for (const auto& [what, mm] : removed) result.removed_mm3 += mm * filament_area_mm2(machine, what.first);
   const std::vector<Layer> layers = planned_layers(
       recovered, source, machine, config, {.plans = !request.keeps_order, .threads = request.threads}, progress);
+  const auto is_ours = [](const Path& path) { return path.source < 0; };
+  const bool has_rampart =
+      std::ranges::any_of(layers, [&](const Layer& layer) { return std::ranges::any_of(layer.paths, is_ours); });
   progress.advance("writing", 0);
   result.text = written(recovered, source, machine, config, layers,
-                        {.as_in_file = request.keeps_order, .header = header_line(request)});
+                        {.as_in_file = request.keeps_order, .header = header_line(request, has_rampart)});
   GcodePrint after = read_gcode(result.text, print.name);
   const DialectWords& words = *words_of(print.facts.dialect);
   if (words.times_heaters && sets_temperatures(recovered, print)) {
