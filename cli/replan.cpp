@@ -67,6 +67,7 @@ void replan(const ReplanCommand& command, Console& console, std::ostream& out) {
                                       .protection = command.protection,
                                       .keeps_order = command.keeps_order,
                                       .removes_shield = command.removes_shield,
+                                      .removes_tower = command.removes_tower,
                                       .threads = threads},
                                      progress);
   if (!result.changed) progress.warn(fmt::format("{}: {}; it stays as it is", print.name, result.reason));
@@ -84,7 +85,7 @@ void replan(const ReplanCommand& command, Console& console, std::ostream& out) {
     out << fmt::format("{}: {:.0f} min instead of {:.0f} min, by this program's estimate\n", target.string(),
                        result.time_s / 60, result.old_time_s / 60);
   if (!command.quiet && result.removed_mm3 > 0)
-    out << fmt::format("{}: the shield is gone, {:.0f} mm3 of plastic\n", target.string(), result.removed_mm3);
+    out << fmt::format("{}: {:.0f} mm3 of plastic are removed\n", target.string(), result.removed_mm3);
 }
 
 }  // namespace

@@ -12,9 +12,10 @@ const char* const replan_description =
     "\n"
     "Every path is printed as it was sliced: its plastic, speed, fan and acceleration. New are the order of the "
     "paths,\n"
-    "where loops begin, the ways between them, and the rampart around the part. So far for files of PrusaSlicer and\n"
-    "Cura with several nozzles. What cannot be re-planned for sure is refused, with the reason; the result is read\n"
-    "again and compared with the file before it is written.\n"
+    "where loops begin, the ways between them, and the rampart around the part, unless the file has a shield or a "
+    "wipe\n"
+    "tower. So far for files of PrusaSlicer, Slic3r and Cura with several nozzles. What cannot be re-planned for sure\n"
+    "is refused, with the reason; the result is read again and compared with the file before it is written.\n"
     "\n"
     "Where the nozzles are: --nozzle-offset, else --printer, else the file, else a guess that is warned of.\n";
 
@@ -61,6 +62,8 @@ CLI::App* add_replan(CLI::App& program, ReplanTexts& texts) {
       ->add_flag("--remove-shield", command.removes_shield,
                  "take away a skirt as high as the print; the rampart takes its place")
       ->group(group);
+  replan->add_flag("--remove-tower", command.removes_tower, "take away the wipe tower; the rampart takes its place")
+      ->group(group);
   group = "Output";
   replan->add_option("-o,--output", command.output, "file to write")->type_name("FILE.gcode")->group(group);
   replan->add_flag("--post-process", command.post_process, "edit the file in place, as slicers ask of their scripts")
@@ -85,6 +88,8 @@ ReplanCommand replan_command(ReplanTexts texts) {
   const bool keeps_order = is_kept(texts.order, "--order"), keeps_travel = is_kept(texts.travel, "--travel");
   if (keeps_order != keeps_travel) throw Error("--order keep and --travel keep go together: say both");
   command.keeps_order = keeps_order;
+  if (keeps_order && (command.removes_shield || command.removes_tower))
+    throw Error("--remove-shield and --remove-tower leave no order to keep: leave out --order keep --travel keep");
   command.protection = protection_of(texts.protect);
   const int ways_out = int(!command.output.empty()) + int(command.post_process) + int(command.dry_run);
   if (ways_out != 1)

@@ -9,8 +9,8 @@
 #include "replan/dialect_words.hpp"
 #include "replan/found_roles.hpp"
 #include "replan/heaters.hpp"
-#include "replan/kept_shield.hpp"
 #include "replan/planning.hpp"
+#include "replan/removed.hpp"
 #include "replan/same_print.hpp"
 #include "replan/written.hpp"
 
@@ -48,7 +48,8 @@ Attempts::Attempts(const GcodePrint& print, const AuditMachine& machine, const R
                     "free for the rampart: name the printer (--printer) to be sure",
                     print.name, cura_free_mm));
   recovered_ = recovered_print(source());
-  if (request.removes_shield) removed_mm_ = remove_shield(recovered_, source());
+  if (request.removes_shield) removed_ = remove_shield(recovered_, source());
+  if (request.removes_tower) removed_.merge(remove_tower(recovered_, source()));
 }
 
 Attempt Attempts::with(RampartExtent extent) const {
@@ -68,7 +69,7 @@ Attempt Attempts::with(RampartExtent extent) const {
     made.text = with_heaters(recovered_, print_, made.print, machine_, words.layer_begins.front());
     made.print = read_gcode(made.text, print_.name);
   }
-  if (const auto what = difference(print_, made.print, machine_, removed_mm_))
+  if (const auto what = difference(print_, made.print, machine_, removed_))
     throw Error(
         fmt::format("{}: re-planned it would not be the same print: {}; the file is left as it is. Please "
                     "report it",
@@ -96,7 +97,7 @@ std::optional<Attempt> Attempts::best() const {
 
 double Attempts::removed_mm3() const {
   double sum = 0;
-  for (std::size_t t = 0; t < removed_mm_.size(); ++t) sum += removed_mm_[t] * filament_area_mm2(machine_, int(t));
+  for (const auto& [what, mm] : removed_) sum += mm * filament_area_mm2(machine_, what.first);
   return sum;
 }
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "replan/recovered.hpp"
+#include "replan/removed.hpp"
 #include "replan/replan.hpp"
 #include "replan/worth.hpp"
 
@@ -39,7 +39,7 @@ class Attempts {
 
   bool tells_progress() const { return !recovered_.progress_line.empty() || recovered_.elapsed_lines > 0; }
 
-  /// Of plastic: the shield.
+  /// Of plastic: shield and tower.
   double removed_mm3() const;
 
  private:
@@ -53,7 +53,7 @@ class Attempts {
   Config config_;
   std::optional<GcodePrint> with_roles_;  // where the file tells none
   RecoveredPrint recovered_;
-  std::vector<double> removed_mm_;  // of each tool's filament
+  RemovedFilament removed_;
 };
 
 }  // namespace cleancolor

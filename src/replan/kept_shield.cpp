@@ -1,10 +1,6 @@
 #include "replan/kept_shield.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-
-#include "base/error.hpp"
 
 namespace cleancolor {
 namespace {
@@ -41,25 +37,6 @@ Path as_wall(Path path) {
   path.closed = true;
   if (gap == 0) path.points.pop_back();
   return path;
-}
-
-std::vector<double> remove_shield(RecoveredPrint& recovered, const GcodePrint& print) {
-  std::vector<double> filament_mm(std::size_t(print.tools), 0.);
-  const auto shield = shield_runs(recovered, print);
-  for (std::size_t k = 0; k < shield.size(); ++k) {
-    std::vector<RecoveredRun>& runs = recovered.layers[k].runs;
-    for (std::size_t n = shield[k].size(); n-- > 0;) {
-      const auto run = runs.begin() + std::ptrdiff_t(shield[k][n]);
-      if (!run->notes.empty())
-        throw Error(
-            fmt::format("{}: layer {}: comments stand before the shield; it cannot be removed", print.name, k + 1));
-      for (const RunRoad& road : run->roads) filament_mm[std::size_t(run->tool)] += double(road.filament_e5) * 1e-5;
-      runs.erase(run);
-    }
-    if (runs.empty())
-      throw Error(fmt::format("{}: layer {} has nothing but the shield; it cannot be removed", print.name, k + 1));
-  }
-  return filament_mm;
 }
 
 }  // namespace cleancolor

@@ -19,8 +19,4 @@ std::vector<std::vector<std::size_t>> shield_runs(const RecoveredPrint& recovere
 /// The path of a shield as a wall of a rampart; closed where it comes back to where it began.
 Path as_wall(Path path);
 
-/// The print without these runs.  Throws Error where lines that stay would go with them.
-/// Returns: the filament that they would have pushed, mm, by tool.
-std::vector<double> remove_shield(RecoveredPrint& recovered, const GcodePrint& print);
-
 }  // namespace cleancolor

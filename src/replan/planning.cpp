@@ -346,7 +346,8 @@ ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint
       }
     return {std::move(scene.layers)};
   }
-  if (scene.has_shield || recovered.keeps_tools) config.rampart = RampartShape::off;
+  const auto has_tower = [](const std::vector<Stop>& stops) { return std::ranges::any_of(stops, &Stop::lays); };
+  if (scene.has_shield || std::ranges::any_of(scene.stops, has_tower)) config.rampart = RampartShape::off;
   const Use use(scene.slices);
   if (use.extruders.size() < 2)
     throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));

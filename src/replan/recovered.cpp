@@ -382,7 +382,8 @@ class Recovery {
       read_line();
       count_e();
       fixed.lines.emplace_back(raw_);
-      if (const auto what = modal_line(line_)) set(*what);
+      // M220 holds for the tower alone.
+      if (const auto what = modal_line(line_); what && line_.number != 220) set(*what);
       if (const auto tool = tool_taken(line_)) tool_ = *tool;
       for (; move_ < print_.moves.size() && print_.moves[move_].offset < next_; ++move_)
         move_filament(print_.moves[move_]);

@@ -27,6 +27,7 @@ struct ReplanRequest {
   ReplanProtection protection = ReplanProtection::full;
   bool keeps_order = false;     // order, starts and travel stay those of the file
   bool removes_shield = false;  // a skirt as high as the print; a rampart takes its place
+  bool removes_tower = false;   // that wipes; likewise
   int threads = 1;
 };
 
@@ -37,7 +38,7 @@ struct Replanned {
   bool has_rampart = false;
   double time_s = 0;  // predicted, of both
   double old_time_s = 0;
-  double removed_mm3 = 0;  // of plastic: the shield
+  double removed_mm3 = 0;  // of plastic: shield and tower
 };
 
 /// Throws Error("file:line: ...") for files that cannot be re-planned for sure; it says what to do.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -31,12 +32,12 @@ std::map<ToolRole, double> filament_mm(const GcodePrint& print) {
 
 /// Length of road of each tool in each cell of 0.4 mm and layer height, in cells that roads pass through their middles.
 using Cell = std::tuple<int, std::int64_t, std::int64_t, std::int64_t>;
-std::vector<std::pair<Cell, double>> cells(const GcodePrint& print, bool without_skirt) {
+std::vector<std::pair<Cell, double>> cells(const GcodePrint& print, const std::set<Role>& without) {
   constexpr double cell_mm = 0.4, step_mm = 0.1;
   std::vector<std::pair<Cell, double>> all;
   for (std::size_t i = 1; i < print.moves.size(); ++i) {
     if (!lays_plastic(print, i) || !is_kept(print.moves[i])) continue;
-    if (without_skirt && print.moves[i].role == Role::skirt_brim) continue;
+    if (without.contains(print.moves[i].role)) continue;
     const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     const int steps = int(length / step_mm) + 1;
@@ -96,11 +97,15 @@ std::optional<std::size_t> starved_line(const GcodePrint& print) {
 }  // namespace
 
 std::optional<std::string> difference(const GcodePrint& before, const GcodePrint& after, const AuditMachine& machine,
-                                      const std::vector<double>& without_shield) {
+                                      const RemovedFilament& removed) {
   if (after.tools > int(machine.nozzles.size())) return "another tool is in use";
   auto old_mm = filament_mm(before);
   const auto new_mm = filament_mm(after);
-  for (std::size_t t = 0; t < without_shield.size(); ++t) old_mm[{int(t), Role::skirt_brim}] -= without_shield[t];
+  std::set<Role> without;
+  for (const auto& [what, mm] : removed) {
+    old_mm[what] -= mm;
+    without.insert(what.second);
+  }
   for (const auto& [what, mm] : old_mm) {
     const auto found = new_mm.find(what);
     const double now = found == new_mm.end() ? 0 : found->second;
@@ -110,8 +115,7 @@ std::optional<std::string> difference(const GcodePrint& before, const GcodePrint
   }
   for (const auto& [what, mm] : new_mm)
     if (!old_mm.contains(what)) return fmt::format("there is {} that was not there", role_name(what.second));
-  const bool without_skirt = !without_shield.empty();
-  const auto old_cells = cells(before, without_skirt), new_cells = cells(after, without_skirt);
+  const auto old_cells = cells(before, without), new_cells = cells(after, without);
   const double all = sum_mm(old_cells), lost = beyond_mm(old_cells, new_cells), added = beyond_mm(new_cells, old_cells);
   if (std::max(lost, added) > seam_share * all)
     return fmt::format("{:.1f} mm of road are missing and {:.1f} mm were not there, of {:.0f} mm", lost, added, all);

@@ -9,16 +9,15 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "audit/machine.hpp"
 #include "reader/print.hpp"
+#include "replan/removed.hpp"
 
 namespace cleancolor {
 
-/// What differs, in words; nothing where they are the same. without_shield: so many mm of filament of each tool were
-/// meant to go with it.  Requires: one machine for both.
+/// What differs, in words; nothing where they are the same.  Requires: one machine for both.
 std::optional<std::string> difference(const GcodePrint& before, const GcodePrint& after, const AuditMachine& machine,
-                                      const std::vector<double>& without_shield = {});
+                                      const RemovedFilament& removed = {});
 
 }  // namespace cleancolor

@@ -386,10 +386,12 @@ class Writing {
     push_forward();
     lay(inner);
     if (strokes.empty()) out_.travel(outer.front().from);
-    lay(std::span(strokes).first(strokes.empty() ? 0 : 1));
-    lay(outer);
-    lay(std::span(strokes).subspan(strokes.empty() ? 0 : 1));
-    wipe_ = {};
+    std::vector<Piece> rest(outer);
+    if (!strokes.empty()) rest.insert(rest.begin(), strokes.front());
+    if (strokes.size() > 1) rest.push_back(strokes.back());
+    lay(rest);
+    inner.insert(inner.end(), rest.begin(), rest.end());
+    wipe_ = wipe_after(outer_run, std::move(inner), true);
     last_ = nullptr;
   }
 

@@ -53,6 +53,17 @@ TEST(ReplanProgram, DryRunPrintsFiguresAndWritesNothing) {
   EXPECT_EQ(file_text(folder.path("in.gcode")), sliced());
 }
 
+TEST(ReplanProgram, RemovesAShieldAndSaysHowMuchWent) {
+  const TestFolder folder;
+  folder.file("in.gcode", file_text(std::string(CLEANCOLOR_ROOT) + "/tests/replan/files/prusaslicer-shield.gcode"));
+  const Outcome done = run(folder, "replan in.gcode -o out.gcode --remove-shield");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find(" mm3 of plastic are removed"), std::string::npos) << done.out;
+  const Outcome kept = run(folder, "replan in.gcode -o out.gcode --remove-shield --order keep --travel keep");
+  EXPECT_EQ(kept.exit_code, 2);
+  EXPECT_NE(kept.err.find("--remove-shield"), std::string::npos) << kept.err;
+}
+
 TEST(ReplanProgram, RefusesOrHandsOnWhatItCannotPlan) {
   const TestFolder folder;
   std::string text = sliced();

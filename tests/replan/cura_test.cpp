@@ -286,6 +286,16 @@ TEST(ReplanCura, KeepsShieldAndTowerWhereTheyAre) {
   for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm + 1e-3) << role_name(what.second);
 }
 
+TEST(ReplanCura, ShieldAndTowerAreRemovedOnRequest) {
+  const Replanned result = cura_replanned(cura_tower(), {.removes_shield = true, .removes_tower = true});
+  EXPECT_NE(result.text.find(";RAMPART_WALL"), result.text.npos);
+  EXPECT_EQ(result.text.find(";TYPE:PRIME-TOWER"), result.text.npos);
+  EXPECT_GT(result.removed_mm3, 1);
+  const auto before = part_filament(read_gcode(cura_tower(), "")), after = part_filament(read_gcode(result.text, ""));
+  ASSERT_EQ(before.size(), after.size());
+  for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm);
+}
+
 TEST(ReplanCura, WithShieldAndTowerKeptMakesTheSameMoves) {
   const auto before = ways_of(cura_tower()), after = ways_of(cura_replanned(cura_tower(), {.keeps_order = true}).text);
   const auto [old_way, new_way] = std::ranges::mismatch(before, after);

@@ -69,7 +69,7 @@ TEST(ReplanShield, IsKeptInsteadOfARampartAndPrintedFirst) {
 
 TEST(ReplanShield, IsRemovedOnRequestAndItsPlasticTold) {
   const std::string text = variant("shield");
-  const Replanned result = replanned_text(text, {.removes_shield = true});
+  const Replanned result = replanned_text(text, {.protection = ReplanProtection::rampart, .removes_shield = true});
   EXPECT_NE(result.text.find(";RAMPART_WALL"), result.text.npos);
   EXPECT_NEAR(result.removed_mm3, skirt_mm3(read_gcode(text, "")), 0.01);
   EXPECT_EQ(skirt_mm3(read_gcode(result.text, "")), 0);
@@ -100,6 +100,14 @@ TEST(ReplanStandby, WaitsThereWithoutCodeOfTheFilamentToo) {
   EXPECT_EQ(stands(read_gcode(text, "")), stands(read_gcode(replanned_text(text).text, "")));
 }
 
+TEST(ReplanStandby, WithoutItsShieldGetsARampart) {
+  const std::string text = variant("ooze"), out = replanned_text(text, {.removes_shield = true}).text;
+  EXPECT_NE(out.find(";RAMPART_WALL"), out.npos);
+  EXPECT_EQ(stands(read_gcode(text, "")), stands(read_gcode(out, "")));
+  EXPECT_NE(out.find("order and travel planned, rampart added"), out.npos);
+  EXPECT_EQ(replanned_text(text).text.find("rampart added"), out.npos);
+}
+
 TEST(ReplanTower, StaysToTheLetter) {
   const std::string text = variant("tower");
   const auto tower = [](const std::string& all) {
@@ -115,6 +123,33 @@ TEST(ReplanTower, StaysToTheLetter) {
   EXPECT_EQ(tower(text), tower(out));
   for (const char* line : {"T", "M220", "G4 ", "M900"}) EXPECT_EQ(lines_that(text, {line}), lines_that(out, {line}));
   EXPECT_EQ(out.find(";RAMPART_WALL"), out.npos);
+}
+
+TEST(ReplanTower, IsRemovedOnRequestAndItsPlasticTold) {
+  const std::string text = variant("tower");
+  const Replanned result = replanned_text(text, {.protection = ReplanProtection::rampart, .removes_tower = true});
+  const GcodePrint before = read_gcode(text, ""), after = read_gcode(result.text, "");
+  double tower_mm = 0;
+  for (const auto& [what, mm] : kept_filament(before))
+    if (what.second == Role::wipe_tower) tower_mm += mm;
+  EXPECT_GT(tower_mm, 10);
+  EXPECT_NEAR(result.removed_mm3, tower_mm * filament_area_mm2(audit_machine(before, {}), 0), 0.01);
+  EXPECT_NE(result.text.find(";RAMPART_WALL"), result.text.npos);
+  EXPECT_EQ(part_filament(before).size(), part_filament(after).size());
+  for (const auto& [what, mm] : part_filament(before)) EXPECT_NEAR(part_filament(after).at(what), mm, 1e-4 * mm);
+  // What stands behind the last road stays as it is.
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < after.moves.size(); ++i)
+    if (lays_plastic(after, i)) last = after.moves[i].offset;
+  EXPECT_TRUE(lines_that(result.text.substr(0, last), {";TYPE:Wipe tower", "M220"}).empty());
+  EXPECT_EQ(lines_that(text, {";END gcode"}).size(), lines_that(result.text, {";END gcode"}).size());
+}
+
+TEST(ReplanTower, WithACommandThatIsNotKnownIsNotRemoved) {
+  const std::string text = variant("tower");
+  const std::string other = with_line(text, "MOVE_AWAY", "M220 B", text.find(";TYPE:Wipe tower"));
+  EXPECT_ERROR(replanned_text(other, {.removes_tower = true}), "MOVE_AWAY");
+  EXPECT_NE(replanned_text(other).text.find("MOVE_AWAY"), std::string::npos);
 }
 
 TEST(ReplanTower, WithCountsOfEIsRefused) {

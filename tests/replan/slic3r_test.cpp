@@ -40,7 +40,7 @@ TEST(ReplanSlic3r, FindsTheSkirtThatWipes) {
 }
 
 TEST(ReplanSlic3r, SaysNoRolesThatItFound) {
-  const std::string out = replanned_text(fixture("slic3r-plain.gcode")).text;
+  const std::string out = replanned_text(fixture("slic3r-plain.gcode"), {.protection = ReplanProtection::rampart}).text;
   EXPECT_NE(out.find(";RAMPART_WALL"), out.npos);
   for (const auto& [what, mm] : part_filament(read_gcode(out, ""))) EXPECT_EQ(what.second, Role::unknown);
 }
