@@ -101,10 +101,11 @@ TEST(ReplanStandby, WaitsThereWithoutCodeOfTheFilamentToo) {
 }
 
 TEST(ReplanStandby, WithoutItsShieldGetsARampart) {
-  const std::string text = variant("ooze"), out = replanned_text(text, {.removes_shield = true}).text;
+  const std::string text = variant("ooze");
+  const std::string out = replanned_text(text, {.protection = ReplanProtection::rampart, .removes_shield = true}).text;
   EXPECT_NE(out.find(";RAMPART_WALL"), out.npos);
   EXPECT_EQ(stands(read_gcode(text, "")), stands(read_gcode(out, "")));
-  EXPECT_NE(out.find("order and travel planned, rampart added"), out.npos);
+  EXPECT_NE(out.find("order and travel plain, rampart added"), out.npos);
   EXPECT_EQ(replanned_text(text).text.find("rampart added"), out.npos);
 }
 
