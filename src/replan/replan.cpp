@@ -142,7 +142,7 @@ class Attempts {
     best.cleanness = judged(best.print);
     const std::vector<RampartExtent> others =
         best.has_rampart ? worth_trying(best.cleanness, before, config_) : std::vector<RampartExtent>{};
-    const bool stands_apart = best.stands_apart;
+    const bool had_rampart = best.has_rampart, stands_apart = best.stands_apart;
     for (const RampartExtent extent : others) {
       if (extent == RampartExtent::column && !stands_apart) continue;
       Attempt other = with(extent);
@@ -150,6 +150,9 @@ class Attempts {
       if (print_cost(other.cleanness, before, config_) < print_cost(best.cleanness, before, config_))
         best = std::move(other);
     }
+    if (had_rampart && !best.has_rampart)
+      progress_.warn(fmt::format("{}: a rampart would take more time than it is worth; it is re-planned without one",
+                                 print_.name));
     if (!is_worth_it(best.cleanness, before, config_)) return std::nullopt;
     return best;
   }
