@@ -10,9 +10,8 @@ namespace cleancolor {
 namespace {
 
 constexpr double least_stroke_mm = 0.05;
-constexpr double least_mm3 = 0.003;  // missing that is worth a stroke
-constexpr double probe_widths =
-    0.7;  // the plastic goes on so far to the one side of a wall, and ends before on the other
+constexpr double least_mm3 = 0.003;   // missing that is worth a stroke
+constexpr double probe_widths = 0.7;  // plastic goes on so far on one side of a wall, and ends before on the other
 
 /// A stroke inside the part, by the road of a wall.
 Path stroke(Vec2 from, const Path& wall, double missing_mm3) {

@@ -196,13 +196,16 @@ std::vector<Polygons> reaches(const Scene& scene, const Config& config) {
 
 /// A loop begun at the nearest place to one.
 Path begun_beside(Path loop, Vec2 p) {
+  const std::size_t count = loop.points.size();
   std::size_t segment = 0;
   Vec2 on = loop.start();
-  for (std::size_t i = 0; i < loop.points.size(); ++i) {
-    const Vec2 q = nearest_on_segment(loop.points[i], loop.points[(i + 1) % loop.points.size()], p);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 q = nearest_on_segment(loop.points[i], loop.points[(i + 1) % count], p);
     if (distance(q, p) < distance(on, p)) segment = i, on = q;
   }
-  return on == loop.points[segment] ? started_at(std::move(loop), segment) : started_on(std::move(loop), segment, on);
+  for (const std::size_t i : {segment, (segment + 1) % count})
+    if (on == loop.points[i]) return started_at(std::move(loop), i);
+  return started_on(std::move(loop), segment, on);
 }
 
 /// The loops that the planner joined as they are in the file, with a stroke between them.
