@@ -83,7 +83,7 @@ std::optional<Attempt> Attempts::best() const {
   best.cleanness = judged(best.print);
   const std::vector<RampartExtent> others =
       best.has_rampart ? worth_trying(best.cleanness, before, config_) : std::vector<RampartExtent>{};
-  const bool stands_apart = best.stands_apart;
+  const bool had_rampart = best.has_rampart, stands_apart = best.stands_apart;
   for (const RampartExtent extent : others) {
     if (extent == RampartExtent::column && !stands_apart) continue;
     Attempt other = with(extent);
@@ -91,6 +91,9 @@ std::optional<Attempt> Attempts::best() const {
     if (print_cost(other.cleanness, before, config_) < print_cost(best.cleanness, before, config_))
       best = std::move(other);
   }
+  if (had_rampart && !best.has_rampart)
+    progress_.warn(
+        fmt::format("{}: a rampart would take more time than it is worth; it is re-planned without one", print_.name));
   if (!is_worth_it(best.cleanness, before, config_)) return std::nullopt;
   return best;
 }

@@ -1,7 +1,6 @@
 #include "replan/columns.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace cleancolor {
@@ -23,18 +22,15 @@ void join(std::vector<Box<Vec2>>& boxes, Box<Vec2> box, double apart_mm) {
   boxes.push_back(box);
 }
 
-Polygons within(const Polygons& region, const Box<Vec2>& box) {
-  Polygons inside;
-  for (const Ring& ring : region)
-    if (are_near(bounds_mm({ring}), box, 0)) inside.push_back(ring);
-  return inside;
+double around_mm(const Ring& ring) {
+  double sum = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) sum += distance(to_mm(ring[i]), to_mm(ring[(i + 1) % ring.size()]));
+  return sum;
 }
 
-double around_mm(const Polygons& region) {
-  double sum = 0;
-  for (const Ring& ring : region)
-    for (std::size_t i = 0; i < ring.size(); ++i) sum += distance(to_mm(ring[i]), to_mm(ring[(i + 1) % ring.size()]));
-  return sum;
+std::size_t column_of(const Ring& ring, const std::vector<Box<Vec2>>& boxes) {
+  const auto holds = [box = bounds_mm({ring})](const Box<Vec2>& column) { return are_near(box, column, 0); };
+  return std::size_t(std::ranges::find_if(boxes, holds) - boxes.begin());
 }
 
 }  // namespace
@@ -49,21 +45,27 @@ std::vector<Box<Vec2>> columns(const Slices& slices, double apart_mm) {
 std::optional<Slices> shortest_column(const Slices& slices, double apart_mm) {
   const std::vector<Box<Vec2>> boxes = columns(slices, apart_mm);
   if (boxes.size() < 2) return std::nullopt;
-  std::optional<Slices> best;
-  double least_mm = INFINITY;
-  for (const Box<Vec2>& box : boxes) {
-    Slices column = slices;
-    double sum_mm = 0;
-    for (PackedPolygons& outline : column.outlines) {
-      const Polygons inside = within(outline, box);
-      sum_mm += around_mm(inside);
-      outline = inside;
+  std::vector<double> around(boxes.size(), 0.);
+  std::vector<char> goes_up(boxes.size(), 0);
+  for (const Polygons outline : slices.outlines) {
+    std::ranges::fill(goes_up, 0);
+    for (const Ring& ring : outline) {
+      const std::size_t column = column_of(ring, boxes);
+      around[column] += around_mm(ring);
+      goes_up[column] = 1;
     }
-    if (Polygons(column.outlines.back()).empty() || sum_mm >= least_mm) continue;
-    least_mm = sum_mm;
-    best = std::move(column);
   }
-  return best;
+  std::size_t best = boxes.size();
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (goes_up[i] != 0 && (best == boxes.size() || around[i] < around[best])) best = i;
+  if (best == boxes.size()) return std::nullopt;
+  Slices column = slices;
+  for (PackedPolygons& outline : column.outlines) {
+    Polygons rings = outline;
+    std::erase_if(rings, [&](const Ring& ring) { return column_of(ring, boxes) != best; });
+    outline = rings;
+  }
+  return column;
 }
 
 }  // namespace cleancolor

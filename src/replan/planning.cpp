@@ -223,6 +223,52 @@ std::vector<Polygons> reaches(const Scene& scene, const Config& config) {
   return result;
 }
 
+/// A loop begun at the nearest place to one.
+Path begun_beside(Path loop, Vec2 p) {
+  const std::size_t count = loop.points.size();
+  std::size_t segment = 0;
+  Vec2 on = loop.start();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 q = nearest_on_segment(loop.points[i], loop.points[(i + 1) % count], p);
+    if (distance(q, p) < distance(on, p)) segment = i, on = q;
+  }
+  for (const std::size_t i : {segment, (segment + 1) % count})
+    if (on == loop.points[i]) return started_at(std::move(loop), i);
+  return started_on(std::move(loop), segment, on);
+}
+
+/// The loops that the planner joined as they are in the file, with a stroke between them.
+Layer with_loops_apart(Layer layer, const RecoveredLayer& source, const GcodePrint& print, const AuditMachine& machine,
+                       const LeadOptions& leads) {
+  std::vector<Path> paths;
+  for (Path& path : layer.paths) {
+    if (path.inner_source < 0) {
+      paths.push_back(std::move(path));
+      continue;
+    }
+    const Vec2 start = path.points[path.outer_from];
+    const auto loop = [&](int index, int depth) {
+      Path own = path_of(source.runs[std::size_t(index)], index, source.height_mm, print, machine);
+      own.island = path.island;
+      own.depth = depth;
+      return own;
+    };
+    Path whole = loop(path.inner_source, path.depth);
+    const RecoveredRun& run = source.runs[std::size_t(path.inner_source)];
+    const double gap_mm =
+        distance(place_mm(run.from, run.tool, machine), place_mm(run.roads.back().to, run.tool, machine));
+    Path inner = begun_beside(std::move(whole), start), outer = begun_beside(loop(path.source, 0), start);
+    inner.travel = std::move(path.travel);
+    outer.inner_source = path.inner_source;
+    std::optional<Path> stroke = stroke_between(inner, gap_mm, outer, leads);
+    paths.push_back(std::move(inner));
+    if (stroke) paths.push_back(std::move(*stroke));
+    paths.push_back(std::move(outer));
+  }
+  layer.paths = std::move(paths);
+  return layer;
+}
+
 /// So far that each has its own rampart.
 double columns_apart_mm(const Config& config) {
   const bool split = config.rampart_walls == RampartWalls::split && config.extruders.size() == 2;
@@ -400,7 +446,8 @@ ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint
                       "re-planned yet",
                       print.name, k + 1));
     Path last = own->last();
-    result.push_back(with_leads(std::move(*own).release(), unpacked(scene.slices.regions[std::size_t(k)]),
+    Layer layer = with_loops_apart(std::move(*own).release(), recovered.layers[std::size_t(k)], print, machine, leads);
+    result.push_back(with_leads(std::move(layer), unpacked(scene.slices.regions[std::size_t(k)]),
                                 below.points.empty() ? nullptr : &below, leads));
     below = std::move(last);
     own.reset();

@@ -7,10 +7,10 @@
 namespace cleancolor {
 namespace {
 
-constexpr double most_longer = 1.3;      // times the file's time
-constexpr double late_weight = 10;       // of each second beyond
-constexpr double worth_planning = 0.05;  // longer by a rampart
-constexpr double same_share = 0.02, same_mm3 = 0.05;
+constexpr double most_longer = 1.3;                       // times the file's time
+constexpr double late_weight = 10;                        // of each second beyond
+constexpr double worth_planning = 0.05;                   // longer by a rampart
+constexpr double passed_share = 0.02, passed_mm3 = 0.05;  // worse than the file, within the error of a forecast
 // What a good order alone leaves of smears and holes, at best: of seven models it leaves a quarter to all of the one
 // and half to all of the other, but for those that are clean already.
 constexpr double least_smear_left = 0.2, least_holes_left = 0.5;
@@ -45,7 +45,7 @@ std::vector<RampartExtent> worth_trying(const Cleanness& with_rampart, const Cle
 
 bool is_worth_it(const Cleanness& print, const Cleanness& before, const Config& config) {
   const double now_mm3 = print.smear_mm3 + print.hole_mm3, before_mm3 = before.smear_mm3 + before.hole_mm3;
-  return now_mm3 <= (1 + same_share) * before_mm3 + same_mm3 &&
+  return now_mm3 <= (1 + passed_share) * before_mm3 + passed_mm3 &&
          print_cost(print, before, config) < print_cost(before, before, config);
 }
 

@@ -20,9 +20,6 @@ namespace {
 
 constexpr double same_place_mm = 0.002;
 constexpr double same_way_um = 50;
-constexpr double joint_half_gap = 1.134;   // of the inner loop, in distances of the loops (plan/joined_loops.cpp)
-constexpr double most_trimmed = 1 / 3.;    // of the inner loop, at each of its ends
-constexpr double shortest_stroke_um = 50;  // worth it
 constexpr std::int64_t unknown_way_um = 1'000'000'000;
 
 double length_um(FilePoint a, FilePoint b) {
@@ -248,22 +245,20 @@ class Writing {
     if (!recovered_.progress_line.empty()) out_.line(recovered_.progress_line);  // its numbers come later
     if (options_.as_in_file ? source.runs.front().drawn_back : extruder().retract_layer_change) draw_back();
     out_.set_z(source.z_mm);
-    for (const Path& path : planned.paths) {
+    for (std::size_t i = 0; i < planned.paths.size(); ++i) {
+      const Path& path = planned.paths[i];
       if (path.source < 0) {
-        own_path(path, k);
+        // A stroke inside the part is printed as the wall that it leads to.
+        const bool in_part = path.island >= 0;
+        const int next = in_part && i + 1 < planned.paths.size() ? planned.paths[i + 1].source : -1;
+        if (in_part && next < 0) fail("a stroke leads nowhere");
+        own_path(path, in_part ? recovered_.states[source.runs.at(std::size_t(next)).roads.front().state]
+                               : of_no_object(recovered_.states[plain_state_[k][std::size_t(path.extruder)]]));
         continue;
       }
-      const auto take = [&](int index) -> const RecoveredRun& {
-        const RecoveredRun& run = source.runs.at(std::size_t(index));
-        if (std::exchange(is_written[std::size_t(index)], char(1)) != 0) fail("a path is planned twice");
-        return run;
-      };
-      const RecoveredRun& run = take(path.source);
-      if (path.inner_source >= 0) {
-        joined_loops(path, take(path.inner_source), run);
-      } else {
-        run.fixed ? fixed_path(path, run) : recovered_path(path, run);
-      }
+      const RecoveredRun& run = source.runs.at(std::size_t(path.source));
+      if (std::exchange(is_written[std::size_t(path.source)], char(1)) != 0) fail("a path is planned twice");
+      run.fixed ? fixed_path(path, run) : recovered_path(path, run);
     }
     if (recovered_.elapsed_lines > 0) out_.line(fmt::format("{}0", words_.elapsed));
     if (std::ranges::find(is_written, 0) != is_written.end()) fail("a path is not planned");
@@ -340,7 +335,10 @@ class Writing {
     go(path, pieces.front().from, &run);
     out_.lines(run.notes);
     push_forward();
-    lay(pieces);
+    for (const Piece& p : pieces) {
+      out_.set(recovered_.states[p.state]);
+      out_.road(p.to, p.filament_e5, p.feed_mm_min);
+    }
     wipe_ = options_.as_in_file ? Wipe{run.wipe_from, run.back_before_wipe_e5, run.wipe}
                                 : wipe_after(run, std::move(pieces), path.closed);
     leave(run);
@@ -366,111 +364,33 @@ class Writing {
     leave(run);
   }
 
-  void lay(std::span<const Piece> pieces) {
-    for (const Piece& p : pieces) {
-      out_.set(recovered_.states[p.state]);
-      out_.road(p.to, p.filament_e5, p.feed_mm_min);
-    }
-  }
-
-  /// The inner loop, a stroke to the outer one, that, and a stroke back inside (plan/joined_loops.hpp). The strokes
-  /// take the filament of the ends of the inner loop that make room for them.
-  void joined_loops(const Path& path, const RecoveredRun& inner_run, const RecoveredRun& outer_run) {
-    const Vec2 start = path.points[path.outer_from];
-    const std::vector<Piece> outer = loop_from(start, pieces_of(outer_run), outer_run.tool, same_place_mm);
-    std::vector<Piece> inner = loop_from(start, pieces_of(inner_run), inner_run.tool, INFINITY);
-    const std::vector<Piece> strokes = strokes_between(inner, outer);
-    go(path, inner.front().from, &inner_run);
-    out_.lines(inner_run.notes);
-    out_.lines(outer_run.notes);
-    push_forward();
-    lay(inner);
-    if (strokes.empty()) out_.travel(outer.front().from);
-    std::vector<Piece> rest(outer);
-    if (!strokes.empty()) rest.insert(rest.begin(), strokes.front());
-    if (strokes.size() > 1) rest.push_back(strokes.back());
-    lay(rest);
-    inner.insert(inner.end(), rest.begin(), rest.end());
-    wipe_ = wipe_after(outer_run, std::move(inner), true);
-    last_ = nullptr;
-  }
-
-  /// The stroke outwards, and mostly one back; the ends of the inner loop are cut off for them. None where they are
-  /// not all of one kind of road.
-  std::vector<Piece> strokes_between(std::vector<Piece>& inner, const std::vector<Piece>& outer) const {
-    double inner_um = 0;
-    for (const Piece& p : inner) inner_um += length_um(p.from, p.to);
-    const FilePoint from = outer.front().from, to = outer.back().to;
-    const double gap_um = length_um(inner.back().to, inner.front().from);
-    const double trim_um =
-        std::min(joint_half_gap * length_um(inner.front().from, from), most_trimmed * (inner_um + gap_um));
-    if (trim_um <= gap_um + shortest_stroke_um) return {};
-    std::vector<Piece> kept = inner;
-    std::int64_t filament = cut_end(kept, trim_um - gap_um);
-    const std::size_t last = kept.size() - 1;
-    kept = backwards(std::move(kept));
-    filament += cut_end(kept, trim_um);
-    const std::size_t first = last + 1 - kept.size();
-    kept = backwards(std::move(kept));
-    Piece out = inner.back();
-    for (std::size_t i = 0; i < inner.size(); ++i)
-      if ((i <= first || i >= last) && kind(inner[i], type_key) != kind(out, type_key)) return {};
-    out.from = kept.back().to, out.to = from;
-    const double out_um = length_um(out.from, out.to), back_um = std::max(0., 2 * trim_um - gap_um - out_um);
-    const double most_um = length_um(to, kept.front().from);
-    if (out_um < shortest_stroke_um) return {};
-    Piece back = out;
-    back.from = to;
-    back.to = between(to, kept.front().from, std::min(1., back_um / std::max(most_um, 1.)));
-    const bool goes_back = std::min(back_um, most_um) > shortest_stroke_um;
-    out.filament_e5 = goes_back ? std::llround(double(filament) * out_um / (out_um + back_um)) : filament;
-    back.filament_e5 = filament - out.filament_e5;
-    inner = std::move(kept);
-    if (!goes_back) return {out};
-    return {out, back};
-  }
-
-  std::string_view kind(const Piece& piece, std::string_view key) const {
-    const ModalState& state = recovered_.states[piece.state];
-    const auto found = state.find(key);
-    return found == state.end() ? std::string_view() : std::string_view(found->second);
-  }
-
   /// The roads of the run as the path walks them.
   std::vector<Piece> begun(const Path& path, const RecoveredRun& run) const {
     std::vector<Piece> pieces = pieces_of(run);
-    if (path.closed) {
-      // Walls may be walked either way; loops of the part stay as they were sliced.
-      if (path.road().role == Role::rampart && is_turned(path, run)) pieces = backwards(std::move(pieces));
-      return loop_from(path.start(), std::move(pieces), run.tool, same_place_mm);
+    const auto apart_mm = [&](FilePoint at, Vec2 place) { return distance(place_mm(at, run.tool, machine_), place); };
+    if (!path.closed) {
+      if (apart_mm(pieces.front().from, path.points.front()) <= same_place_mm) return pieces;
+      pieces = backwards(std::move(pieces));
+      if (apart_mm(pieces.front().from, path.points.front()) > same_place_mm) fail("a path begins elsewhere");
+      return pieces;
     }
-    const auto begins = [&] {
-      return distance(place_mm(pieces.front().from, run.tool, machine_), path.points.front()) <= same_place_mm;
-    };
-    if (begins()) return pieces;
-    pieces = backwards(std::move(pieces));
-    if (!begins()) fail("a path begins elsewhere");
-    return pieces;
-  }
-
-  /// The pieces of a loop begun at the place on it that is nearest.
-  std::vector<Piece> loop_from(Vec2 place, std::vector<Piece> pieces, int tool, double farthest_mm) const {
-    const auto nearest = [&](FilePoint a, FilePoint b) {
-      return nearest_on_segment(place_mm(a, tool, machine_), place_mm(b, tool, machine_), place);
-    };
-    const double gap_um = length_um(pieces.back().to, pieces.front().from);
+    // Walls may be walked either way; loops of the part stay as they were sliced.
+    if (path.road().role == Role::rampart && is_turned(path, run)) pieces = backwards(std::move(pieces));
     std::size_t best = 0;
-    double least = INFINITY;
-    Vec2 on = place;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const Vec2 q = nearest(pieces[i].from, pieces[i].to);
-      if (const double off = distance(q, place); off < least) least = off, best = i, on = q;
-    }
+    double least = apart_mm(pieces.front().from, path.start());
+    Vec2 on = path.start();
+    const double gap_um = length_um(pieces.back().to, pieces.front().from);
     // The seam itself is a place to begin, too.
-    const double seam_off = distance(nearest(pieces.back().to, pieces.front().from), place);
-    if (std::min(seam_off, least) > farthest_mm) fail("a loop begins beside itself");
-    if (seam_off <= std::max(same_place_mm, least)) return pieces;
-    return begun_at(std::move(pieces), best, in_file(on, tool), gap_um);
+    const Vec2 in_gap = nearest_on_segment(place_mm(pieces.back().to, run.tool, machine_),
+                                           place_mm(pieces.front().from, run.tool, machine_), path.start());
+    if (distance(in_gap, path.start()) <= same_place_mm) return pieces;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const Vec2 q = nearest_on_segment(place_mm(pieces[i].from, run.tool, machine_),
+                                        place_mm(pieces[i].to, run.tool, machine_), path.start());
+      if (const double off = distance(q, path.start()); off < least || i == 0) least = off, best = i, on = q;
+    }
+    if (least > same_place_mm) fail("a loop begins beside itself");
+    return begun_at(std::move(pieces), best, in_file(on, run.tool), gap_um);
   }
 
   std::vector<Piece> begun_at(std::vector<Piece> pieces, std::size_t index, FilePoint at, double gap_um) const {
@@ -486,6 +406,10 @@ class Writing {
     const Piece& last = pieces.back();
     Piece seam{last.to, pieces.front().from, 0, last.feed_mm_min, last.state};
     if (gap_um > 0.5) {
+      const auto kind = [&](const Piece& p, std::string_view key) {
+        const auto found = recovered_.states[p.state].find(key);
+        return found == recovered_.states[p.state].end() ? std::string() : found->second;
+      };
       double length = 0;
       for (const Piece& p : rest) length += length_um(p.from, p.to);
       const bool alike = !rest.empty() && length > 2 * gap_um && kind(last, type_key) == kind(rest.back(), type_key);
@@ -496,8 +420,14 @@ class Writing {
     return turned;
   }
 
-  /// Walls of the rampart, their brim, refills.
-  void own_path(const Path& path, std::size_t k) {
+  static ModalState of_no_object(ModalState state) {
+    for (auto& [key, text] : state)
+      if (key.starts_with("0 ")) text.clear();
+    return state;
+  }
+
+  /// Walls of the rampart, their brim, refills; printed under a state.
+  void own_path(const Path& path, ModalState state) {
     const auto tool = std::size_t(path.extruder);
     const Extruder& e = config_.extruders[tool];
     Polyline line;
@@ -505,9 +435,6 @@ class Writing {
     if (line.points.size() < 2) return;
     go(path, in_file(line.points.front(), path.extruder), nullptr);
     push_forward();
-    ModalState state = recovered_.states[plain_state_[k][tool]];
-    for (auto& [key, text] : state)
-      if (key.starts_with("0 ")) text.clear();  // it belongs to no object
     const bool refills = path.road().role == Role::refill;
     const double filament_mm2 = filament_area_mm2(machine_, path.extruder);
     std::size_t next = 0;

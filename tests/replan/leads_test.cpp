@@ -47,6 +47,7 @@ TEST(Leads, ASingleWallIsComeToFromInsideWithWhatIsMissing) {
     ASSERT_EQ(led.paths.size(), 2u);
     const Path& lead = led.paths.front();
     EXPECT_EQ(lead.road().role, Role::refill);
+    EXPECT_EQ(lead.island, wall.island);
     EXPECT_EQ(lead.end(), wall.start());
     EXPECT_NEAR(lead.start().x, -5 + 0.75 * 0.4, 1e-6);
     EXPECT_NEAR(lead.start().y, wall.start().y, 1e-6);
@@ -66,12 +67,29 @@ TEST(Leads, AHoleIsComeToFromThePlasticAroundIt) {
   EXPECT_LT(led.paths.front().start().x, -5);
 }
 
+TEST(Leads, AnInnerLoopGoesOverFromWhereItEnds) {
+  const Path inner = started_at(ring_wall(4.6), 4), outer = started_at(ring_wall(5), 4);
+  const auto over = stroke_between(inner, 0.06, outer, plain_hops);
+  ASSERT_TRUE(over);
+  EXPECT_EQ(over->road().role, Role::refill);
+  EXPECT_EQ(over->island, outer.island);
+  EXPECT_NEAR(distance(over->start(), inner.start()), 0.06, 1e-9);
+  EXPECT_NEAR(over->start().y, 0.06, 1e-9);  // the ring comes down to its start
+  EXPECT_EQ(over->end(), outer.start());
+  EXPECT_NEAR(volume_mm3(*over), 2 * (1 - OozeModel{}.left(HopTime{}.seconds(length_mm(*over)))), 1e-6);
+  EXPECT_FALSE(stroke_between(outer, 0, outer, plain_hops));
+}
+
 TEST(Leads, WallsThatLackNothingHaveNone) {
   Path near = far_fill();
   near.points = {{-4, 0}, {-4.9, 0}};
   const Path wall = started_at(ring_wall(5), 4);
   EXPECT_EQ(with_leads(layer_of({wall}), {square(5.2)}, &near, plain_hops).paths.size(), 1u);
   EXPECT_EQ(with_leads(layer_of({wall}), {square(5.2)}, nullptr, plain_hops).paths.size(), 1u);
+  Path after_loop = wall;
+  after_loop.inner_source = 3;
+  const Path fill = far_fill();
+  EXPECT_EQ(with_leads(layer_of({after_loop}), {square(5.2)}, &fill, plain_hops).paths.size(), 1u);
 }
 
 }  // namespace
