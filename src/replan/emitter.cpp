@@ -9,6 +9,9 @@
 namespace cleancolor {
 namespace {
 
+constexpr std::int64_t negligible_e5 =
+    20;  // left by the rounding of lines that stay; it goes with the next drawing back
+
 template <int decimals>
 void put(std::string& text, char letter, std::int64_t value) {
   char buffer[32];
@@ -26,6 +29,7 @@ Emitter::Emitter(const RecoveredPrint& recovered, const DialectWords& words, con
       text_(std::move(start)),
       state_(recovered.states[recovered.begin_state]),
       tool_(recovered.begin_tool),
+      z_um_(std::llround(recovered.begin_z_mm * 1e3)),
       count_e5_(recovered.begin_count_e5),
       drawn_back_e5_(recovered.begin_drawn_back_e5) {}
 
@@ -126,7 +130,7 @@ void Emitter::draw_back(std::int64_t to_e5) {
 }
 
 void Emitter::push_forward(std::int64_t to_e5) {
-  if (drawn_back_e5() <= to_e5) return;
+  if (drawn_back_e5() <= to_e5 + negligible_e5) return;
   const Extruder& e = extruder();
   if (recovered_.says_on_and_off) line("M101");
   text_ += "G1";
@@ -137,7 +141,7 @@ void Emitter::push_forward(std::int64_t to_e5) {
 }
 
 void Emitter::road(FilePoint to, std::int64_t filament_e5, double feed_mm_min) {
-  assert(known_ && drawn_back_e5() == 0 && lift_um_ == 0);
+  assert(known_ && drawn_back_e5() <= negligible_e5 && lift_um_ == 0);
   if (to == at_) return;
   text_ += "G1";
   if (to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);

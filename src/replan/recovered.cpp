@@ -12,6 +12,7 @@
 #include "model/text_scan.hpp"
 #include "reader/known_commands.hpp"
 #include "replan/dialect_words.hpp"
+#include "replan/file_parts.hpp"
 
 namespace cleancolor {
 namespace {
@@ -26,10 +27,6 @@ std::int64_t to_e5(double mm) {
   return std::llround(mm * 1e5);
 }
 
-bool begins_with_one_of(std::string_view line, const std::array<std::string_view, 2>& prefixes) {
-  return std::ranges::any_of(prefixes, [&](std::string_view p) { return !p.empty() && line.starts_with(p); });
-}
-
 bool is_temperature(const GcodeLine& line) {
   return line.letter == 'M' && (line.number == 104 || line.number == 109 || line.number == 140 || line.number == 190);
 }
@@ -39,7 +36,10 @@ class Recovery {
   Recovery(const GcodePrint& print, const DialectWords& words) : print_(print), words_(words), text_(*print.text) {}
 
   RecoveredPrint result() && {
-    find_body();
+    const LayersText layers = layers_text(print_, words_);
+    r_.begin = layers.begin, r_.end = layers.end, r_.prints_after_end = layers.prints_after;
+    for (const GcodeMove& move : print_.moves)
+      if (move.offset < r_.begin) r_.begin_z_mm = move.to_mm.z;
     for (const IniEntry& entry : print_.facts.config) {
       const bool sailfish = entry.value == "sailfish", makerware = entry.value == "makerware";
       if (entry.key == "ooze_prevention") stands_aside_ = entry.value == "1";
@@ -53,15 +53,13 @@ class Recovery {
     for (at_ = 0; at_ < r_.begin; at_ = next_) before_layers();
     begin_layers();
     for (; at_ < r_.end; at_ = next_) in_layers();
-    part_headers_and_changes();
+    part_headers(r_, changed_, print_, words_);
     finish();
     return std::move(r_);
   }
 
  private:
-  [[noreturn]] void refuse(std::size_t offset, const std::string& what) const {
-    throw Error(fmt::format("{}:{}: {}", print_.name, line_number(text_, offset), what));
-  }
+  [[noreturn]] void refuse(std::size_t offset, const std::string& what) const { refuse_line(print_, offset, what); }
 
   /// Sets line_ and raw_ to the line at at_.
   void read_line() {
@@ -70,48 +68,6 @@ class Recovery {
     next_ = std::min(stop + 1, text_.size());
     if (const auto fault = parse_line(raw_, line_)) refuse(at_, std::string(*fault));
   }
-
-  /// The layers reach from the first ;LAYER_CHANGE to the last road.
-  void find_body() {
-    if (text_.find('\r') != text_.npos)
-      refuse(text_.find('\r'), "lines end with CR; save the file with plain line ends (LF)");
-    std::size_t first = text_.npos;
-    for (const std::string_view mark : words_.layer_begins)
-      if (!mark.empty()) first = std::min(first, text_.find(fmt::format("\n{}", mark)));
-    if (first == text_.npos)
-      throw Error(fmt::format("{}: it has no {} comments{}", print_.name, words_.layer_begins.front(),
-                              words_.layer_begins.front() == ";LAYER_CHANGE"
-                                  ? "; say them in the slicer's G-code after layer change (Slic3r: layer_gcode = "
-                                    ";LAYER_CHANGE)"
-                                  : ", so that its layers are not known"));
-    r_.begin = first + 1;
-    std::size_t last = 0;
-    for (std::size_t i = 0; i < print_.moves.size(); ++i) {
-      if (!lays_plastic(print_, i)) continue;
-      r_.prints_after_end = words_.tower_is_roads && is_auxiliary(print_.moves[i].role);
-      if (!r_.prints_after_end) last = print_.moves[i].offset;
-    }
-    if (last < r_.begin)
-      refuse(last, fmt::format("nothing is printed after the first {}", words_.layer_begins.front()));
-    r_.end = line_end(last);
-    // A wipe goes over the road before it, and so with it.
-    for (std::size_t at = r_.end; text_.substr(at, 1) == "G" || text_.substr(at, 5) == ";WIPE"; at = line_end(at))
-      if (text_.substr(at, 9) == ";WIPE_END") r_.end = line_end(at);
-    if (words_.travel == "G0") take_last_way();
-  }
-
-  /// What the last nozzle still wipes along belongs to the layers, for it is no way from anywhere else.
-  void take_last_way() {
-    while (true) {
-      const std::string_view rest = text_.substr(r_.end);
-      const bool travels = rest.starts_with("G0 ") && rest.substr(0, rest.find('\n')).find('Z') == rest.npos;
-      if (!travels && !rest.starts_with(words_.elapsed)) return;
-      r_.end = line_end(r_.end);
-    }
-  }
-
-  /// Behind the line that begins at or contains this byte.
-  std::size_t line_end(std::size_t at) const { return std::min(text_.find('\n', at), text_.size() - 1) + 1; }
 
   /// As the file leaves it so far.
   std::uint32_t state_index() {
@@ -348,7 +304,8 @@ class Recovery {
     if (!follows || move.feeds != move.tool) refuse(at_, "filament is drawn back on the way, but not after a road");
     if (run().wipe.empty()) {
       run().wipe_from = std::move(way_);
-      run().back_before_wipe_e5 = drawn_back_e5_[move.feeds];
+      const std::int64_t back = drawn_back_e5_[move.feeds];
+      run().back_before_wipe_e5 = back > rounding_e5 ? back : 0;
     } else if (!way_.empty()) {
       refuse(at_, "filament is drawn back on the way, but not after a road");
     }
@@ -377,7 +334,7 @@ class Recovery {
       refuse(at_, "a wipe tower that begins while filament is drawn back");
     FixedLines fixed{.lines = {}, .lays = true, .state = state_index(), .drawn_back_e5 = drawn_back_e5_};
     close_gap(from);
-    const std::size_t end = line_end(print_.moves[last].offset);
+    const std::size_t end = behind_wipe(text_, line_end(text_, print_.moves[last].offset));
     for (;; at_ = next_) {
       read_line();
       count_e();
@@ -391,7 +348,7 @@ class Recovery {
     }
     for (std::size_t t = 0; t < drawn_back_e5_.size(); ++t)
       fixed.drawn_back_e5[t] = drawn_back_e5_[t] - fixed.drawn_back_e5[t];
-    const Vec3 to = print_.moves[last].to_mm;
+    const Vec3 to = print_.moves[move_ - 1].to_mm;
     fixed.tool_after = tool_;
     fixed.to = {to_um(to.x), to_um(to.y)};
     run().fixed = std::move(fixed);
@@ -471,7 +428,7 @@ class Recovery {
       std::vector<std::string> enter, leave;
       for (std::size_t i = tool_at; i < gap_.size(); ++i) enter.emplace_back(gap_[i].text);
       if (has_layer_mark_) {
-        mixed_.push_back({r_.layers.size() - 1, from_tool_, gap_[tool_at].offset});
+        changed_.push_back({r_.layers.size() - 1, from_tool_, gap_[tool_at].offset});
         for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
       } else {
         for (std::size_t i = 0; i < tool_at; ++i) leave.emplace_back(gap_[i].text);
@@ -543,35 +500,6 @@ class Recovery {
                             tool));
   }
 
-  /// Of a layer that begins with another tool: the last lines of its header are those that the tool is left with.
-  void part_headers_and_changes() {
-    for (const Mixed& m : mixed_) {
-      std::vector<std::string>& header = r_.layers[m.layer].header;
-      const auto known = r_.leave.find(m.from_tool);
-      std::size_t plain = header.size();
-      while (plain > 0 && !begins_with_one_of(header[plain - 1], words_.header_ends) &&
-             !begins_with_one_of(header[plain - 1], words_.layer_begins))
-        --plain;
-      const std::size_t length = known != r_.leave.end() ? known->second.size() : header.size() - plain;
-      const auto rest = header.end() - std::ptrdiff_t(std::min(length, header.size()));
-      std::vector<std::string> leave(rest, header.end());
-      std::optional<FixedLines>& fixed = r_.layers[m.layer].runs.front().fixed;
-      const bool stands = fixed && !fixed->lays;
-      const bool ends_so = stands || known == r_.leave.end() || known->second == leave;
-      if (!ends_so)
-        refuse(m.offset,
-               "a layer begins with a tool change that is not as those before; look at the custom G-code of "
-               "tool and filament");
-      if (stands) {
-        fixed->lines.insert(fixed->lines.begin(), leave.begin(), leave.end());
-        fixed->tool_at = leave.size();
-      } else {
-        r_.leave.try_emplace(m.from_tool, leave);
-      }
-      header.erase(rest, header.end());
-    }
-  }
-
   void finish() {
     leave_run();
     r_.end_tool = tool_;
@@ -587,12 +515,6 @@ class Recovery {
                         "other are not re-planned",
                         print_.name, k + 1));
   }
-
-  struct Mixed {
-    std::size_t layer = 0;
-    int from_tool = 0;
-    std::size_t offset = 0;
-  };
 
   const GcodePrint& print_;
   const DialectWords& words_;
@@ -623,7 +545,7 @@ class Recovery {
   std::size_t back_after_ = 0;
   std::optional<std::size_t> rises_after_, forward_after_;  // so many places of the way
   double rise_mm_ = 0;                                      // above the layer
-  std::vector<Mixed> mixed_;
+  std::vector<ChangedHeader> changed_;
 };
 
 }  // namespace

@@ -92,6 +92,7 @@ struct RecoveredPrint {
   bool relative_e = false;
   bool e_of_each_tool = false;                    // each tool has its own count, which is never set anew (Sailfish)
   bool says_on_and_off = false;                   // M101 and M103 around what is drawn back (MakerWare)
+  double begin_z_mm = 0;                          // where the layers begin; 0: not told
   int begin_tool = 0, end_tool = 0;               // in use where the layers begin, and where they end
   std::uint32_t begin_state = 0, end_state = 0;   // likewise
   std::vector<std::int64_t> begin_drawn_back_e5;  // of each tool

@@ -87,9 +87,16 @@ void require_same(std::map<int, std::vector<std::string>>& changes, int tool, co
                   print.name, layer + 1, tool));
 }
 
+void require_none_above(const RecoveredPrint& recovered, const GcodePrint& print) {
+  if (recovered.prints_after_end)
+    throw Error(fmt::format(
+        "{}: a tower or shield goes on above the part, where nothing is re-planned; slice without it", print.name));
+}
+
 }  // namespace
 
 RemovedFilament remove_shield(RecoveredPrint& recovered, const GcodePrint& print) {
+  require_none_above(recovered, print);
   RemovedFilament removed;
   const auto shield = shield_runs(recovered, print);
   for (std::size_t k = 0; k < shield.size(); ++k)
@@ -102,6 +109,7 @@ RemovedFilament remove_shield(RecoveredPrint& recovered, const GcodePrint& print
 }
 
 RemovedFilament remove_tower(RecoveredPrint& recovered, const GcodePrint& print) {
+  require_none_above(recovered, print);
   RemovedFilament removed;
   for (std::size_t i = 0; i < print.moves.size(); ++i)
     if (lays_plastic(print, i) && print.moves[i].role == Role::wipe_tower)

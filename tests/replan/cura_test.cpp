@@ -303,11 +303,21 @@ TEST(ReplanCura, WithShieldAndTowerKeptMakesTheSameMoves) {
       << "after " << old_way - before.begin() << " ways of " << before.size();
 }
 
-TEST(ReplanCura, LeavesLayersOfTheTowerAloneAboveThePartAsTheyAre) {
+/// Its last layer has nothing but the tower.
+std::string with_tower_above() {
   std::string text = cura_tower();
-  const std::size_t top = text.find(";LAYER:5");
-  for (std::size_t at = top; (at = text.find(";TYPE:", at)) != text.npos; ++at)
+  for (std::size_t at = text.find(";LAYER:5"); (at = text.find(";TYPE:", at)) != text.npos; ++at)
     text.replace(at, text.find('\n', at) - at, ";TYPE:PRIME-TOWER");
+  return text;
+}
+
+TEST(ReplanCura, RemovesNoTowerThatGoesOnAboveThePart) {
+  EXPECT_ERROR(cura_replanned(with_tower_above(), {.removes_tower = true}), "above the part");
+}
+
+TEST(ReplanCura, LeavesLayersOfTheTowerAloneAboveThePartAsTheyAre) {
+  const std::string text = with_tower_above();
+  const std::size_t top = text.find(";LAYER:5");
   const std::string out = cura_replanned(text).text;
   const auto before = all_filament(text), after = all_filament(out);
   for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm + 1e-3) << role_name(what.second);

@@ -1,0 +1,102 @@
+#include "replan/file_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace cleancolor {
+
+void refuse_line(const GcodePrint& print, std::size_t offset, const std::string& what) {
+  throw Error(fmt::format("{}:{}: {}", print.name, line_number(*print.text, offset), what));
+}
+
+bool begins_with_one_of(std::string_view line, const std::array<std::string_view, 2>& prefixes) {
+  return std::ranges::any_of(prefixes, [&](std::string_view p) { return !p.empty() && line.starts_with(p); });
+}
+
+std::size_t line_end(std::string_view text, std::size_t at) {
+  return std::min(text.find('\n', at), text.size() - 1) + 1;
+}
+
+std::size_t behind_wipe(std::string_view text, std::size_t at) {
+  constexpr std::string_view end = ";WIPE_END";
+  const auto passes = [&](std::size_t p) {
+    const std::string_view line = text.substr(p, end.size());
+    return line.starts_with("\n") || line.starts_with("G") || line.starts_with(";WIPE");
+  };
+  std::size_t behind = at;
+  for (std::size_t p = at; p < text.size() && passes(p) && behind == at; p = line_end(text, p))
+    if (text.substr(p, end.size()) == end) behind = line_end(text, p);
+  return behind;
+}
+
+namespace {
+
+/// Behind what the last nozzle still travels: it is no way from anywhere else.
+std::size_t behind_last_way(std::string_view text, std::size_t at, const DialectWords& words) {
+  while (true) {
+    const std::string_view rest = text.substr(at);
+    const bool travels = rest.starts_with("G0 ") && rest.substr(0, rest.find('\n')).find('Z') == rest.npos;
+    if (!travels && !rest.starts_with(words.elapsed)) return at;
+    at = line_end(text, at);
+  }
+}
+
+}  // namespace
+
+LayersText layers_text(const GcodePrint& print, const DialectWords& words) {
+  const std::string_view text = *print.text, mark = words.layer_begins.front();
+  if (text.find('\r') != text.npos)
+    refuse_line(print, text.find('\r'), "lines end with CR; save the file with plain line ends (LF)");
+  std::size_t first = text.npos;
+  for (const std::string_view begins : words.layer_begins)
+    if (!begins.empty()) first = std::min(first, text.find(fmt::format("\n{}", begins)));
+  if (first == text.npos)
+    throw Error(fmt::format("{}: it has no {} comments{}", print.name, mark,
+                            mark == ";LAYER_CHANGE" ? "; say them in the slicer's G-code after layer change (Slic3r: "
+                                                      "layer_gcode = ;LAYER_CHANGE)"
+                                                    : ", so that its layers are not known"));
+  LayersText layers{.begin = first + 1};
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < print.moves.size(); ++i) {
+    if (!lays_plastic(print, i)) continue;
+    layers.prints_after = words.tower_is_roads && is_auxiliary(print.moves[i].role);
+    if (!layers.prints_after) last = print.moves[i].offset;
+  }
+  if (last <= first) refuse_line(print, last, fmt::format("nothing is printed after the first {}", mark));
+  layers.end = behind_wipe(text, line_end(text, last));
+  if (words.tower_is_roads) layers.end = behind_last_way(text, layers.end, words);
+  return layers;
+}
+
+void part_headers(RecoveredPrint& recovered, const std::vector<ChangedHeader>& changed, const GcodePrint& print,
+                  const DialectWords& words) {
+  const auto marks = [&](std::string_view line) {
+    return begins_with_one_of(line, words.header_ends) || begins_with_one_of(line, words.layer_begins);
+  };
+  for (const ChangedHeader& c : changed) {
+    std::vector<std::string>& header = recovered.layers[c.layer].header;
+    const auto known = recovered.leave.find(c.from_tool);
+    std::size_t plain = header.size();
+    while (plain > 0 && !marks(header[plain - 1])) --plain;
+    const std::size_t length = known != recovered.leave.end() ? known->second.size() : header.size() - plain;
+    const auto rest = header.end() - std::ptrdiff_t(std::min(length, header.size()));
+    const std::vector<std::string> leave(rest, header.end());
+    std::optional<FixedLines>& fixed = recovered.layers[c.layer].runs.front().fixed;
+    if (fixed && !fixed->lays) {
+      fixed->lines.insert(fixed->lines.begin(), leave.begin(), leave.end());
+      fixed->tool_at = leave.size();
+    } else if (known != recovered.leave.end() && known->second != leave) {
+      refuse_line(print, c.offset,
+                  "a layer begins with a tool change that is not as those before; look at the custom G-code of tool "
+                  "and filament");
+    } else {
+      recovered.leave.try_emplace(c.from_tool, leave);
+    }
+    header.erase(rest, header.end());
+  }
+}
+
+}  // namespace cleancolor

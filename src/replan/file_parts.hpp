@@ -1,0 +1,52 @@
+// replan/file_parts.hpp
+//
+// File parts: where the layers of a file begin and end, and which lines of a layer's header belong to its first change
+// of tools.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reader/print.hpp"
+#include "replan/dialect_words.hpp"
+#include "replan/recovered.hpp"
+
+namespace cleancolor {
+
+/// Throws Error("file:line: what").
+[[noreturn]] void refuse_line(const GcodePrint& print, std::size_t offset, const std::string& what);
+
+/// Whether it begins with one of them; empty ones are none.
+bool begins_with_one_of(std::string_view line, const std::array<std::string_view, 2>& prefixes);
+
+/// Behind the line that begins at or contains this byte.
+std::size_t line_end(std::string_view text, std::size_t at);
+
+/// Behind the wipe that follows there before anything else but moves; `at` where there is none: a wipe goes over the
+/// road before it, and so with it.
+std::size_t behind_wipe(std::string_view text, std::size_t at);
+
+/// From the first mark of a layer to the last road and its wipe, bytes. Where a tower is roads like others: to the last
+/// road of the part, and what its nozzle still travels.
+struct LayersText {
+  std::size_t begin = 0, end = 0;
+  bool prints_after = false;  // more of a tower or shield
+};
+LayersText layers_text(const GcodePrint& print, const DialectWords& words);
+
+/// A layer that begins with a change of tools.
+struct ChangedHeader {
+  std::size_t layer = 0;
+  int from_tool = 0;
+  std::size_t offset = 0;  // of the line that changes it
+};
+
+/// The last lines of these headers become those that the tool is left with: as many as elsewhere in the file, else all
+/// behind the marks of the layer.
+void part_headers(RecoveredPrint& recovered, const std::vector<ChangedHeader>& changed, const GcodePrint& print,
+                  const DialectWords& words);
+
+}  // namespace cleancolor
