@@ -6,6 +6,9 @@
 namespace cleancolor {
 namespace {
 
+// A smear on a wall that stands already counts by so much more: whether one still to come takes any is not sure.
+constexpr double laid_weight = 0.5;
+
 int steps_a_path(Effort effort) {
   return effort == Effort::fast ? 8 : effort == Effort::normal ? 30 : 200;
 }
@@ -61,6 +64,7 @@ class Reorder {
     begun_.clear();
     for (std::size_t k = 0; k < paths_.size(); ++k) begun_.push_back(begun(paths_[k], roads_, k, visits[k].entry));
     start_layer();
+    laid_ = LaidWalls(begun_);
     double sum = 0;
     for (const Turn& turn : turns_of(paths_)) {
       std::uint64_t walls = standing_;
@@ -112,7 +116,7 @@ class Reorder {
       }
       n.state.carried_mm3 += model_.volume_mm3 * n.state.left * (1 - hop_left);
       n.state.left *= hop_left;
-      const TouchTrack track(path, n.offset_mm - own, n.extruder, cost_.map(), walls);
+      const TouchTrack track(path, n.offset_mm - own, n.extruder, cost_.map(), walls, {&laid_, int(k), laid_weight});
       sum += track.forwards(model_).apply(n.state, model_);
     }
     return sum;
@@ -137,6 +141,7 @@ class Reorder {
     find_detours(turn, run);
     const ExposureOrder best = exposure_order(run, cost_.map(), model_, weights_);
     permute(turn, best.order);
+    laid_ = LaidWalls(paths_);
     for (std::size_t k = 0; k < best.order.size(); ++k) judge_entries(turn.part + k, run.hanging, best.at_start[k]);
     std::size_t k = 0;
     for (HangingNozzle& n : states_) n.state = n.extruder == extruder ? IdleState{} : best.after[k++].state;
@@ -181,15 +186,18 @@ class Reorder {
     constexpr double left_over = 0.1;  // of what still hangs on a tip is taken to be smeared later
     const Path& path = paths_[k];
     const std::vector<Entry>& entries = roads_.entries[k];
+    // Where a loop begins changes little but what stands when idle nozzles come over it.
+    const double share = path.closed ? 0.1 : 1.;
+    const LaidSoFar laid{&laid_, int(k), laid_weight / share};
     entry_cost_[k].assign(entries.size(), 0);
     for (std::size_t h = 0; h < states.size(); ++h) {
-      const TouchTrack track(path, hanging[h].offset_mm, hanging[h].extruder, cost_.map(), standing_);
+      const TouchTrack track(path, hanging[h].offset_mm, hanging[h].extruder, cost_.map(), standing_, laid);
       for (std::size_t e = 0; e < entries.size(); ++e) {
         IdleState state = states[h];
         const double from_s = path.closed ? track.seconds_at(path, entries[e].segment, entries[e].at_mm) : 0;
         const Touches touches = !path.closed && e == 1 ? track.backwards(model_) : track.forwards(model_, from_s);
         const double smeared = touches.apply(state, model_);
-        entry_cost_[k][e] += (path.closed ? 0.1 : 1.) * mm_of_mm3_ * (smeared + left_over * state.carried_mm3);
+        entry_cost_[k][e] += share * mm_of_mm3_ * (smeared + left_over * state.carried_mm3);
       }
     }
   }
@@ -206,6 +214,7 @@ class Reorder {
   std::vector<HangingNozzle> states_;  // of all nozzles; offsets are the carriage's
   std::uint64_t standing_ = 0;         // walls of the layer so far
   int walls_ = 0;
+  LaidWalls laid_;  // of paths_ or begun_
   std::vector<std::vector<double>> entry_cost_;
 };
 

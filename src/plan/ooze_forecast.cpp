@@ -71,8 +71,13 @@ double seconds_of(const Path& path) {
   return sum;
 }
 
-TouchTrack::TouchTrack(const Path& path, Vec2 offset_mm, int idle, const LayerMap& map, std::uint64_t walls) {
-  for (const Path& inner : path.inner) inner_.emplace_back(inner, offset_mm, idle, map, walls);
+TouchTrack::TouchTrack(const Path& path, Vec2 offset_mm, int idle, const LayerMap& map, std::uint64_t walls,
+                       const LaidSoFar& laid)
+    : own_weight_(laid.weight) {
+  for (const Path& inner : path.inner) {
+    TouchTrack& track = inner_.emplace_back(inner, offset_mm, idle, map, walls, laid);
+    track.own_weight_ = 0;  // the wall around it is still to come
+  }
   RoadOf road(path);
   for (std::size_t i = 0; i < path.segments(); ++i) {
     const Vec2 a = path.points[i] + offset_mm, b = path.points[(i + 1) % path.points.size()] + offset_mm;
@@ -81,11 +86,19 @@ TouchTrack::TouchTrack(const Path& path, Vec2 offset_mm, int idle, const LayerMa
     s_mm_.push_back(s_mm);
     const int steps = int(length / step_mm) + 1;
     for (int k = 0; k < steps; ++k) {
-      const LayerMap::Cell cell = map.at(lerp(a, b, (k + 0.5) / steps));
+      const Vec2 p = lerp(a, b, (k + 0.5) / steps);
+      const LayerMap::Cell cell = map.at(p);
       const bool smears = cell.visibility > 0 && cell.extruder != idle;
       const bool wipes = cell.wall != 0 && (walls >> std::min(cell.wall - 1, 63) & 1) != 0;
-      if (smears || wipes)
-        touches_.push_back({all_s_ + length * s_mm * (k + 0.5) / steps, smears ? cell.visibility / 255. : 0});
+      if (!smears && !wipes) continue;
+      Touch touch{.at_s = all_s_ + length * s_mm * (k + 0.5) / steps,
+                  .visibility = smears ? cell.visibility / 255. : 0};
+      if (smears && laid.walls != nullptr) {
+        const LaidWalls::Cell by = laid.walls->at(p);
+        if (by.path == laid.path) touch.laid_s = by.at_s;
+        if (by.path >= 0 && by.path < laid.path) touch.visibility *= 1 + laid.weight;
+      }
+      touches_.push_back(touch);
     }
     all_s_ += length * s_mm;
   }
@@ -105,8 +118,13 @@ void TouchTrack::add(Touches& t, double left, double visibility) {
 Touches TouchTrack::forwards(const OozeModel& model, double from_s) const {
   Touches t;
   const auto first = std::ranges::lower_bound(touches_, from_s, {}, &Touch::at_s);
-  for (auto it = first; it != touches_.end(); ++it) add(t, model.left(it->at_s - from_s), it->visibility);
-  for (auto it = touches_.begin(); it != first; ++it) add(t, model.left(it->at_s + all_s_ - from_s), it->visibility);
+  const auto since = [&](double s) { return s < from_s ? s + all_s_ - from_s : s - from_s; };
+  const auto meet = [&](const Touch& touch) {
+    const double at_s = since(touch.at_s);
+    add(t, model.left(at_s), counted(touch, touch.laid_s >= 0 && since(touch.laid_s) < at_s));
+  };
+  std::for_each(first, touches_.end(), meet);
+  std::for_each(touches_.begin(), first, meet);
   t.left_end = model.left(all_s_);
   // Inner loops are begun at about the same share of their way.
   for (const TouchTrack& inner : inner_) t = then(inner.forwards(model, inner.all_s_ * (from_s / all_s_)), t);
@@ -115,7 +133,10 @@ Touches TouchTrack::forwards(const OozeModel& model, double from_s) const {
 
 Touches TouchTrack::backwards(const OozeModel& model) const {
   Touches t;
-  for (std::size_t i = touches_.size(); i-- > 0;) add(t, model.left(all_s_ - touches_[i].at_s), touches_[i].visibility);
+  for (std::size_t i = touches_.size(); i-- > 0;) {
+    const Touch& touch = touches_[i];
+    add(t, model.left(all_s_ - touch.at_s), counted(touch, touch.laid_s > touch.at_s));
+  }
   t.left_end = model.left(all_s_);
   return t;
 }

@@ -17,6 +17,7 @@
 
 #include "model/config.hpp"
 #include "plan/cost.hpp"
+#include "plan/laid_walls.hpp"
 #include "toolpath/path.hpp"
 
 namespace cleancolor {
@@ -109,8 +110,10 @@ double seconds_of(const Path& path);
 class TouchTrack {
  public:
   /// The nozzle hangs at `offset_mm` from the one that prints. walls: bit w: wall w of the map stands already.
+  /// laid.path: this one, of which laid.walls knows as much as is given here.
   /// Cost: about 5 ns for each 0.25 mm.
-  TouchTrack(const Path& path, Vec2 offset_mm, int idle, const LayerMap& map, std::uint64_t walls);
+  TouchTrack(const Path& path, Vec2 offset_mm, int idle, const LayerMap& map, std::uint64_t walls,
+             const LaidSoFar& laid = {});
 
   /// The path walked as it is given, or from its other end; a closed one from so many seconds after its first point.
   Touches forwards(const OozeModel& model, double from_s = 0) const;
@@ -124,12 +127,15 @@ class TouchTrack {
  private:
   struct Touch {
     double at_s = 0, visibility = 0;
+    double laid_s = -1;  // when the path itself lays what is touched; -1: it does not
   };
+  double counted(const Touch& touch, bool is_laid) const { return touch.visibility * (is_laid ? 1 + own_weight_ : 1); }
   static void add(Touches& touches, double left, double visibility);
 
   std::vector<Touch> touches_;
   std::vector<double> begin_s_, s_mm_;  // of each segment
   double all_s_ = 0;
+  double own_weight_ = 0;          // of the path's own wall, as LaidSoFar::weight
   std::vector<TouchTrack> inner_;  // of Path::inner
 };
 
