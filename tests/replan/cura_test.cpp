@@ -268,19 +268,11 @@ std::vector<std::vector<std::pair<int, bool>>> tools_of(const std::string& text)
   return layers;
 }
 
-std::map<ToolRole, double> all_filament(const std::string& text) {
-  const GcodePrint print = read_gcode(text, "");
-  std::map<ToolRole, double> sums;
-  for (std::size_t i = 0; i < print.moves.size(); ++i)
-    if (lays_plastic(print, i)) sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
-  return sums;
-}
-
 TEST(ReplanCura, KeepsShieldAndTowerWhereTheyAre) {
   const std::string out = cura_replanned(cura_tower()).text;
   EXPECT_EQ(out.find(";RAMPART_WALL"), out.npos);
   EXPECT_EQ(tools_of(cura_tower()), tools_of(out));
-  const auto before = all_filament(cura_tower()), after = all_filament(out);
+  const auto before = kept_filament(read_gcode(cura_tower(), "")), after = kept_filament(read_gcode(out, ""));
   ASSERT_EQ(before.size(), after.size());
   EXPECT_TRUE(before.contains({1, Role::wipe_tower}));
   for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm + 1e-3) << role_name(what.second);
@@ -319,7 +311,7 @@ TEST(ReplanCura, LeavesLayersOfTheTowerAloneAboveThePartAsTheyAre) {
   const std::string text = with_tower_above();
   const std::size_t top = text.find(";LAYER:5");
   const std::string out = cura_replanned(text).text;
-  const auto before = all_filament(text), after = all_filament(out);
+  const auto before = kept_filament(read_gcode(text, "")), after = kept_filament(read_gcode(out, ""));
   for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm + 1e-3) << role_name(what.second);
   const std::size_t from = text.find('\n', text.find(";TYPE:", top)), to = text.rfind("\nG92 E0");
   EXPECT_NE(out.find(text.substr(from, std::min(to, text.find(";TIME_ELAPSED", top)) - from)), out.npos);
@@ -327,7 +319,8 @@ TEST(ReplanCura, LeavesLayersOfTheTowerAloneAboveThePartAsTheyAre) {
 
 TEST(ReplanCura, TellsABrimFromTheWallsBesideIt) {
   const std::string text = replaced(cura_bar(), ";TYPE:WALL-INNER", ";TYPE:SKIRT");
-  const auto before = all_filament(text), after = all_filament(cura_replanned(text).text);
+  const auto before = kept_filament(read_gcode(text, "")),
+             after = kept_filament(read_gcode(cura_replanned(text).text, ""));
   const ToolRole brim{0, Role::skirt_brim};
   ASSERT_TRUE(before.contains(brim));
   EXPECT_GE(after.at(brim), before.at(brim) - 1e-3);

@@ -54,7 +54,7 @@ inline std::map<ToolRole, double> part_filament(const GcodePrint& print) {
 inline std::map<ToolRole, double> kept_filament(const GcodePrint& print) {
   std::map<ToolRole, double> sums;
   for (std::size_t i = 0; i < print.moves.size(); ++i)
-    if (lays_plastic(print, i) && print.moves[i].role != Role::rampart)
+    if (lays_plastic(print, i) && print.moves[i].role != Role::rampart && print.moves[i].role != Role::refill)
       sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
   return sums;
 }
