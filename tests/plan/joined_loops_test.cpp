@@ -70,6 +70,17 @@ TEST(JoinedLoops, AreOnePathThatBeginsAndEndsInsideAndTakesAsMuchPlastic) {
   }
 }
 
+TEST(JoinedLoops, KnowTheirSourcesAndWhereTheOuterOneBegins) {
+  std::vector<Path> loops = two_loops(rectangle({0, 0}, {10, 6}).front());
+  loops[0].source = 7;
+  loops[1].source = 3;
+  const Path outer = started_at(with_inner_loops(loops, true).front(), 2);
+  const Path path = joined(outer);
+  EXPECT_EQ(path.source, 3);
+  EXPECT_EQ(path.inner_source, 7);
+  EXPECT_EQ(path.points[path.outer_from], outer.start());
+}
+
 TEST(JoinedLoops, KeepTheRoadsOfTheirStretches) {
   std::vector<Path> loops = two_loops(rectangle({0, 0}, {10, 6}).front());
   Road bridge = drawn_road;

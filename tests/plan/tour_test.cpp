@@ -346,5 +346,22 @@ TEST(WayBetween, GoesAroundForeignPlastic) {
   for (std::size_t i = 0; i + 1 < way.size(); ++i) EXPECT_EQ(cost.straight(way[i], way[i + 1]).foreign, 0) << i;
 }
 
+TEST(Roadmap, WallsOfASourceAreNotLedInside) {
+  std::mt19937 random(4);
+  std::vector<Path> paths;
+  const DrawnLayer layer = random_drawn_layer(random, 5, 30, paths);
+  const LayerMap map = layer.map();
+  const TravelCost cost = cost_of(map, {12, 3});
+  const auto led = [&] {
+    int count = 0;
+    for (const std::vector<Entry>& entries : roadmap(paths, cost).entries)
+      count += int(std::ranges::count_if(entries, [](const Entry& e) { return e.lead_mm > 0; }));
+    return count;
+  };
+  EXPECT_GT(led(), 0);
+  for (Path& path : paths) path.source = 0;
+  EXPECT_EQ(led(), 0);
+}
+
 }  // namespace
 }  // namespace cleancolor
