@@ -157,6 +157,7 @@ class Writing {
         asked_mm_(config.extruders.size(), 0.),
         written_e5_(config.extruders.size(), 0) {
     find_plain_states();
+    if (!options.as_in_file) out_.forget(type_key);  // strokes and walls say theirs
   }
 
   std::string text(const std::vector<Layer>& layers) {
