@@ -131,11 +131,6 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   Config config = planning_config(print, machine, request.printer ? &*request.printer : nullptr);
   if (request.protection == ReplanProtection::none || request.keeps_order) config.rampart = RampartShape::off;
   if (request.protection != ReplanProtection::full) config.planner = Planner::plain;
-  if (print.facts.dialect == Dialect::cura && !request.printer && config.rampart != RampartShape::off)
-    progress.warn(
-        fmt::format("{}: the file does not say how large the bed is; {:g} mm around the print are taken to be "
-                    "free for the rampart: name the printer (--printer) to be sure",
-                    print.name, cura_free_mm));
   const GcodePrint with_roles = finds_roles ? with_found_roles(print, machine) : GcodePrint{};
   const GcodePrint& source = finds_roles ? with_roles : print;
   RecoveredPrint recovered = recovered_print(source);
@@ -148,6 +143,11 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   const auto is_ours = [](const Path& path) { return path.source < 0; };
   const bool has_rampart =
       std::ranges::any_of(layers, [&](const Layer& layer) { return std::ranges::any_of(layer.paths, is_ours); });
+  if (print.facts.dialect == Dialect::cura && !request.printer && has_rampart)
+    progress.warn(
+        fmt::format("{}: the file does not say how large the bed is; {:g} mm around the print are taken to be free for "
+                    "the rampart: name the printer (--printer) to be sure",
+                    print.name, cura_free_mm));
   progress.advance("writing", 0);
   result.text = written(recovered, source, machine, config, layers,
                         {.as_in_file = request.keeps_order, .header = header_line(request, has_rampart)});
