@@ -12,10 +12,9 @@ const char* const replan_description =
     "\n"
     "Every path is printed as it was sliced: its plastic, speed, fan and acceleration. New are the order of the "
     "paths,\n"
-    "where loops begin, the ways between them, and the rampart around the part, unless the file has a shield or a "
-    "wipe\n"
-    "tower. So far for files of PrusaSlicer, Slic3r and Cura with several nozzles. What cannot be re-planned for sure\n"
-    "is refused, with the reason; the result is read again and compared with the file before it is written.\n"
+    "where loops begin, the ways between them, and the rampart around the part, where no shield or wipe tower stands.\n"
+    "So far for files of PrusaSlicer, Slic3r and Cura with several nozzles. What cannot be re-planned for sure is\n"
+    "refused, with the reason; the result is read again and compared with the file before it is written.\n"
     "\n"
     "Where the nozzles are: --nozzle-offset, else --printer, else the file, else a guess that is warned of.\n";
 
