@@ -26,7 +26,7 @@ SMEAR, LITTLE_SMEAR_MM3, HOLES, TIME = 1 / 8, 0.2, 1 / 4, 1.30
 FILAMENT = 1e-4  # of each nozzle and type of road
 AUXILIARY = ("skirt", "brim", "tower", "custom", "wipe")
 NEAR_MM = 0.003  # ends of roads are rounded to 0.001 mm
-SEAM_GAP_MM = 0.1  # that slicers leave where a loop ends, and some rounding
+SEAM_GAP_MM = 0.25  # that slicers leave where a loop ends: PrusaSlicer 0.06, Cura up to that
 
 WORD = re.compile(r"([XYZE])(-?[0-9.]+)")
 
@@ -37,7 +37,7 @@ def roads(gcode):
     at, relative, tool, kind = {"X": 0.0, "Y": 0.0, "Z": 0.0, "E": 0.0}, False, 0, ""
     for line in gcode.read_text(errors="replace").splitlines():
         if line.startswith((";TYPE:", "; TYPE:")):
-            kind = line.split(":", 1)[1].lower()
+            kind = line.split(":", 1)[1].lower().replace("unknown", "")
         elif line.startswith(("G0", "G1")):
             words = {axis: float(value) for axis, value in WORD.findall(line.split(";", 1)[0])}
             fed = words.get("E", 0.0) - (0.0 if relative or "E" not in words else at["E"])

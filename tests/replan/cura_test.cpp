@@ -22,6 +22,11 @@ const std::string& cura_bar() {
   static const std::string text = fixture("cura.gcode");
   return text;
 }
+/// Two bars of 12 x 4 mm with ooze shield and prime tower.
+const std::string& cura_tower() {
+  static const std::string text = fixture("cura-shield-tower.gcode");
+  return text;
+}
 Replanned cura_replanned(const std::string& text, const ReplanRequest& request = {}, const Progress& progress = {}) {
   return replanned_text(text, request, progress, apart());
 }
@@ -79,6 +84,12 @@ TEST(ReplanCura, WarnsThatTheBedIsTakenForGranted) {
   cura_replanned(cura_bar(), {}, warned.progress);
   ASSERT_FALSE(warned.warnings.empty());
   EXPECT_NE(warned.warnings.front().find("--printer"), std::string::npos);
+}
+
+TEST(ReplanCura, DoesNotWarnOfTheBedWhereNoRampartIsAdded) {
+  Warned warned;
+  cura_replanned(cura_tower(), {}, warned.progress);
+  EXPECT_TRUE(warned.warnings.empty());
 }
 
 TEST(ReplanCura, KeepsFilamentAndRoadsOfEachTool) {
@@ -244,12 +255,6 @@ TEST(ReplanCura, ChangesToolsByM135AsTheFileDoes) {
   EXPECT_EQ(out.find("\nT1\n"), out.npos);
   const auto before = part_filament(read_gcode(cura_bar(), "")), after = part_filament(read_gcode(out, ""));
   for (const auto& [what, mm] : before) EXPECT_NEAR(after.at(what), mm, 1e-4 * mm);
-}
-
-/// Two bars of 12 x 4 mm with ooze shield and prime tower.
-const std::string& cura_tower() {
-  static const std::string text = fixture("cura-shield-tower.gcode");
-  return text;
 }
 
 /// Of each layer: tools in their order, and whether the tower is what each of them prints first.
