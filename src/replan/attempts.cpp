@@ -5,7 +5,6 @@
 #include "audit/timeline.hpp"
 #include "base/error.hpp"
 #include "reader/read.hpp"
-#include "replan/cura.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/found_roles.hpp"
 #include "replan/heaters.hpp"
@@ -42,11 +41,6 @@ Attempts::Attempts(const GcodePrint& print, const AuditMachine& machine, const R
       throw Error(fmt::format("{}: it does not say which roads are a shield; slice without it", print.name));
     with_roles_ = with_found_roles(print, machine);
   }
-  if (print.facts.dialect == Dialect::cura && !request.printer && config_.rampart != RampartShape::off)
-    progress.warn(
-        fmt::format("{}: the file does not say how large the bed is; {:g} mm around the print are taken to be "
-                    "free for the rampart: name the printer (--printer) to be sure",
-                    print.name, cura_free_mm));
   recovered_ = recovered_print(source());
   if (request.removes_shield) removed_ = remove_shield(recovered_, source());
   if (request.removes_tower) removed_.merge(remove_tower(recovered_, source()));

@@ -305,6 +305,12 @@ TEST(Reader, WhatBelongsToNoObjectIsNoPartOfIt) {
   EXPECT_EQ(print.moves[5].role, Role::skirt_brim);
 }
 
+TEST(Reader, RoadsOfAnUnknownTypeAreNoStartCode) {
+  const GcodePrint print = as_print(";TYPE:Unknown\n" + printed + ";TYPE:External perimeter\nG1 X3 E3\n");
+  EXPECT_EQ(print.moves[1].role, Role::unknown);
+  EXPECT_EQ(print.moves[3].role, Role::external_perimeter);
+}
+
 TEST(Reader, LineEndsOfAllSystems) {
   for (const char* end : {"\n", "\r\n", "\r"}) {
     std::string text = "\xEF\xBB\xBF;one\nG1 X0 Y0 Z.2 ;two\nG1 X5 E1\nG1 Xbad\n", changed;

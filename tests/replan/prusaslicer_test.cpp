@@ -290,7 +290,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Model{"world", "two-color-world-50mm_ocean.stl", "two-color-world-50mm_land.stl", 1. / 30},
                     Model{"robot_ice", "robot-ice_robot.stl", "robot-ice_crust.stl", 1. / 8},
                     Model{"crystal", "crystal_black.stl", "crystal_white.stl", 1. / 40},
-                    Model{"spot_cow", "spot-cow_dark.stl", "spot-cow_light.stl", 1. / 15},
+                    Model{"spot_cow", "spot-cow_dark.stl", "spot-cow_light.stl", 1. / 12},
                     Model{"dragon_heart", "dragon-heart_body.stl", "dragon-heart_accent.stl", 1. / 15},
                     Model{"rose", "rose_green.stl", "rose_petals.stl", 1. / 40},
                     Model{"four_cones", "4-cones_black.stl", "4-cones_white.stl", 1. / 40}),
