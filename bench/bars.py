@@ -1,7 +1,7 @@
 """What must hold of how clean our prints come out, against the best of the others, and of what that costs.
 
-The best of the others is, for each figure by itself, the least over all their variants in peers.COMPARED. In the scenario worst
-those that print another part count as well, the hardest reading; under the variants of the audit only those that print the same.
+The best of the others is, for each figure by itself and under each variant of the audit, the least over all their variants in
+peers.COMPARED; those that print another part count as well, the hardest reading.
 """
 
 from dataclasses import dataclass
@@ -61,8 +61,6 @@ class Check:
 def best_peer(name, rows, key, scenario):
     """(figure, title) of the least of the others; of equals, one that prints the same part."""
     others = [(slicer, variant) for slicer, variant, _ in COMPARED if slicer != "ours"]
-    if scenario != "worst":
-        others = [row for row in others if compares(name, rows, row)]
     row = min(others,
               key=lambda row: (figure(rows[row], key, scenario), not compares(name, rows, row)))
     title = next(title for *entry, title in COMPARED if tuple(entry) == row)

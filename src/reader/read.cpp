@@ -87,7 +87,7 @@ bool any_plastic(const GcodePrint& print) {
 
 /// What is extruded before the file first says what it prints is the user's start code.
 void mark_start_code(GcodePrint& print) {
-  const std::size_t says_so = print.text->find("\n;TYPE:Unknown");
+  const std::size_t says_so = print.text->find(";TYPE:Unknown");
   const auto told = std::ranges::find_if(
       print.moves, [&](const GcodeMove& m) { return m.role != Role::unknown || m.offset > says_so; });
   if (told == print.moves.end()) return;
