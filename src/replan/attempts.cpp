@@ -85,10 +85,10 @@ std::optional<Attempt> Attempts::best() const {
     if (print_cost(other.cleanness, before, config_) < print_cost(best.cleanness, before, config_))
       best = std::move(other);
   }
+  if (!is_worth_it(best.cleanness, before, config_)) return std::nullopt;
   if (had_rampart && !best.has_rampart)
     progress_.warn(
         fmt::format("{}: a rampart would take more time than it is worth; it is re-planned without one", print_.name));
-  if (!is_worth_it(best.cleanness, before, config_)) return std::nullopt;
   return best;
 }
 

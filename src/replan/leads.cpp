@@ -87,7 +87,10 @@ Layer with_leads(Layer layer, const std::vector<Polygons>& regions, const Path* 
   }
   std::vector<Path> result;
   for (std::size_t i = 0; i < layer.paths.size(); ++i) {
-    if (leads[i]) result.push_back(std::move(*leads[i])), layer.paths[i].travel.clear();
+    if (leads[i]) {
+      leads[i]->travel = std::exchange(layer.paths[i].travel, {});  // it begins beside the wall's start
+      result.push_back(std::move(*leads[i]));
+    }
     result.push_back(std::move(layer.paths[i]));
   }
   layer.paths = std::move(result);

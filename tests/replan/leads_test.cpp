@@ -57,6 +57,16 @@ TEST(Leads, ASingleWallIsComeToFromInsideWithWhatIsMissing) {
   }
 }
 
+TEST(Leads, TakeTheWayThatWasPlannedToTheWall) {
+  const Path fill = far_fill();
+  Path wall = started_at(ring_wall(5), 4);
+  wall.travel = {{20, 20}, {-20, 20}};
+  const Layer led = with_leads(layer_of({wall}), {square(5.2)}, &fill, plain_hops);
+  ASSERT_EQ(led.paths.size(), 2u);
+  EXPECT_EQ(led.paths.front().travel, wall.travel);
+  EXPECT_TRUE(led.paths.back().travel.empty());
+}
+
 TEST(Leads, AHoleIsComeToFromThePlasticAroundIt) {
   Polygons region = square(9);
   region.push_back(square(4.8).front());
