@@ -55,6 +55,18 @@ std::string comparison(const GcodePrint& before, const GcodePrint& after, const 
   return comparison_text(files);
 }
 
+/// One line: what it brings, and what it takes.
+std::string summary(const std::string& target, const Replanned& result) {
+  std::string line = target + ": ";
+  if (result.gain)
+    line +=
+        fmt::format("smears {:.1f} instead of {:.1f} mm3, holes {:.1f} instead of {:.1f} mm3, ", result.gain->smear_mm3,
+                    result.gain->old_smear_mm3, result.gain->hole_mm3, result.gain->old_hole_mm3);
+  const int digits = result.old_time_s < 6000 ? 1 : 0;
+  return line + fmt::format("{:.{}f} min instead of {:.{}f} min, by this program's estimate\n", result.time_s / 60,
+                            digits, result.old_time_s / 60, digits);
+}
+
 void replan(const ReplanCommand& command, Console& console, std::ostream& out) {
   const Progress progress = console.progress();
   MachineRequest request = machine_request(command, progress);
@@ -81,9 +93,7 @@ void replan(const ReplanCommand& command, Console& console, std::ostream& out) {
   const auto& target = command.post_process ? command.file : command.output;
   if (result.changed || !command.post_process) write_file(target, result.text);
   console.clear();
-  if (!command.quiet && result.changed)
-    out << fmt::format("{}: {:.0f} min instead of {:.0f} min, by this program's estimate\n", target.string(),
-                       result.time_s / 60, result.old_time_s / 60);
+  if (!command.quiet && result.changed) out << summary(target.string(), result);
   if (!command.quiet && result.removed_mm3 > 0)
     out << fmt::format("{}: {:.0f} mm3 of plastic are removed\n", target.string(), result.removed_mm3);
 }
@@ -100,7 +110,7 @@ void run(const ReplanCommand& command, std::ostream& out, std::ostream& err, boo
   } catch (const SystemError&) {
     throw;
   } catch (const Error& fault) {
-    if (!command.keep_going || interrupted()) throw;
+    if (!command.keep_going || interrupted() || !std::filesystem::is_regular_file(command.file)) throw;
     console.clear();
     if (!command.output.empty()) write_file(command.output, bytes_of(command.file));
     err << "cleancolor: " << fault.what() << "; the file stays as it is" << std::endl;

@@ -27,7 +27,7 @@ constexpr const char* replan_examples =
     "  cleancolor replan globe.gcode --dry-run\n"
     "  cleancolor replan globe.gcode -o clean.gcode --printer replicator-dual\n"
     "As a post-processing script of the slicer:\n"
-    "  cleancolor replan --post-process --keep-going\n"
+    "  cleancolor replan --post-process\n"
     "\n";
 
 bool is_kept(const std::string& word, std::string_view option) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cassert>
@@ -50,6 +51,12 @@ OutputFile::OutputFile(const std::filesystem::path& target) : target_(target) {
   temporary_ = target_.parent_path() / fmt::format(".{}.{}.part", target_.filename().string(), ::getpid());
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("cannot be created", errno);
+  // What is replaced stays as private as it was, and whose it was where the system lets that be.
+  struct stat replaced{};
+  if (std::filesystem::exists(status) && ::stat(target_.c_str(), &replaced) == 0) {
+    if (::fchown(descriptor_, replaced.st_uid, replaced.st_gid) != 0) errno = 0;
+    if (::fchmod(descriptor_, replaced.st_mode & 07777) != 0) fail("cannot be created", errno);
+  }
   buffer_.reserve(buffer_bytes);
 }
 

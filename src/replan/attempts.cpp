@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "audit/timeline.hpp"
 #include "base/error.hpp"
 #include "reader/read.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/found_roles.hpp"
 #include "replan/heaters.hpp"
+#include "replan/kept_shield.hpp"
 #include "replan/planning.hpp"
 #include "replan/removed.hpp"
 #include "replan/same_print.hpp"
@@ -89,7 +92,20 @@ std::optional<Attempt> Attempts::best() const {
   if (had_rampart && !best.has_rampart)
     progress_.warn(
         fmt::format("{}: a rampart would take more time than it is worth; it is re-planned without one", print_.name));
+  best.before = before;
   return best;
+}
+
+std::string Attempts::advice() const {
+  const bool has_tower = recovered_.keeps_tools && !request_.removes_tower;
+  const auto shield = shield_runs(recovered_, source());
+  const bool has_shield =
+      !request_.removes_shield && std::ranges::any_of(shield, [](const auto& runs) { return !runs.empty(); });
+  if (!has_tower && !has_shield) return {};
+  const char* options = !has_shield  ? "--remove-tower makes"
+                        : !has_tower ? "--remove-shield makes"
+                                     : "--remove-tower and --remove-shield make";
+  return fmt::format(", unless {} room for a rampart", options);
 }
 
 double Attempts::removed_mm3() const {

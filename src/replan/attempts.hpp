@@ -22,7 +22,7 @@ struct Attempt {
   std::string text;
   GcodePrint print;
   bool has_rampart = false, stands_apart = false;
-  Cleanness cleanness = {};
+  Cleanness before = {}, cleanness = {};  // where it was judged: of the file, of this
 };
 
 class Attempts {
@@ -38,6 +38,9 @@ class Attempts {
   std::optional<Attempt> best() const;
 
   bool tells_progress() const { return !recovered_.progress_line.empty() || recovered_.elapsed_lines > 0; }
+
+  /// What the user may try where nothing is handed out; begins with a comma, or is empty.
+  std::string advice() const;
 
   /// Of plastic: shield and tower.
   double removed_mm3() const;

@@ -16,7 +16,7 @@
 namespace cleancolor {
 namespace {
 
-constexpr std::size_t head_bytes = 4096;
+constexpr std::size_t most_head_bytes = 4096;
 
 std::string_view producer_of(const GcodePrint& print) {
   return print.facts.producer.empty() ? std::string_view("an unknown slicer") : print.facts.producer;
@@ -30,6 +30,19 @@ void require_known_dialect(const GcodePrint& print) {
                           print.name, producer_of(print)));
 }
 
+/// A file that was cut off has no code that switches the heaters off.
+void require_whole(const GcodePrint& print) {
+  const std::string_view text = *print.text;
+  const std::size_t last = text.rfind('\n') + 1;
+  const bool half_a_line = last < text.size() && text[last] != ';';
+  const std::string_view elapsed = words_of(print.facts.dialect)->elapsed;
+  const std::size_t told = elapsed.empty() ? text.npos : text.rfind(elapsed), layer = text.rfind("\n;LAYER:");
+  const bool half_a_layer = told != text.npos && layer != text.npos && told < layer;
+  if (half_a_line || half_a_layer)
+    throw Error(fmt::format("{}: it ends in the middle of a {}: it was cut off; export it again", print.name,
+                            half_a_line ? "line" : "layer"));
+}
+
 Replanned unchanged(const GcodePrint& print, std::string reason) {
   return {.text = *print.text, .changed = false, .reason = std::move(reason)};
 }
@@ -38,13 +51,15 @@ Replanned unchanged(const GcodePrint& print, std::string reason) {
 
 Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request,
                     const Progress& progress) {
-  if (std::string_view(*print.text).substr(0, head_bytes).find(replanned_mark) != std::string_view::npos)
+  if (std::string_view(*print.text).substr(0, most_head_bytes).find(replanned_mark) != std::string_view::npos)
     return unchanged(print, "it was re-planned before");
   require_known_dialect(print);
+  require_whole(print);
   const Attempts attempts(print, machine, request, progress);
   const bool judges = request.protection == ReplanProtection::full && !request.keeps_order;
   std::optional<Attempt> made = judges ? attempts.best() : attempts.with(RampartExtent::all);
-  if (!made) return unchanged(print, "re-planned it would come out no cleaner than the time is worth");
+  if (!made)
+    return unchanged(print, "re-planned it would come out no cleaner than the time is worth" + attempts.advice());
   if (print.facts.dialect == Dialect::cura && !request.printer && made->has_rampart)
     progress.warn(
         fmt::format("{}: the file does not say how large the bed is; {:g} mm around the print are taken to be free for "
@@ -53,6 +68,9 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   Replanned result;
   result.text = std::move(made->text);
   result.has_rampart = made->has_rampart;
+  if (judges)
+    result.gain =
+        Gain{made->before.smear_mm3, made->cleanness.smear_mm3, made->before.hole_mm3, made->cleanness.hole_mm3};
   result.removed_mm3 = attempts.removed_mm3();
   result.old_time_s = timeline(print, machine).print_time_s;
   const Timeline time = timeline(made->print, machine);

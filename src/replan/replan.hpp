@@ -31,12 +31,19 @@ struct ReplanRequest {
   int threads = 1;
 };
 
+/// By the worst scenario of the audit, of the file and of what became of it.
+struct Gain {
+  double old_smear_mm3 = 0, smear_mm3 = 0;
+  double old_hole_mm3 = 0, hole_mm3 = 0;
+};
+
 struct Replanned {
   std::string text;     // of the file
   bool changed = true;  // false: it is as it was, for this reason
   std::string reason = {};
   bool has_rampart = false;
-  double time_s = 0;  // predicted, of both
+  std::optional<Gain> gain = {};  // where it was judged: with order, travel and rampart planned
+  double time_s = 0;              // predicted, of both
   double old_time_s = 0;
   double removed_mm3 = 0;  // of plastic: shield and tower
 };

@@ -107,3 +107,10 @@ TEST_F(OutputFileTest, AFullDiscIsAnErrorAndLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(disc));
   EXPECT_EQ(std::system(("umount '" + disc.string() + "'").c_str()), 0);
 }
+TEST_F(OutputFileTest, IsAsPrivateAsWhatItReplaces) {
+  std::ofstream(folder / "mine") << "old";
+  fs::permissions(folder / "mine", fs::perms::owner_read | fs::perms::owner_write);
+  write_file(folder / "mine", "new");
+  EXPECT_EQ(fs::status(folder / "mine").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(content(folder / "mine"), "new");
+}

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "outcome.hpp"
 
 namespace cleancolor {
@@ -15,6 +17,7 @@ TEST(ReplanProgram, WritesAFileAndSaysWhatItTakes) {
   folder.file("in.gcode", sliced());
   const Outcome done = run(folder, "replan in.gcode -o out.gcode");
   EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find("smears "), std::string::npos) << done.out;
   EXPECT_NE(done.out.find(" min instead of "), std::string::npos) << done.out;
   EXPECT_NE(file_text(folder.path("out.gcode")).find("; replanned by cleancolor "), std::string::npos);
   EXPECT_EQ(file_text(folder.path("in.gcode")), sliced());
@@ -79,6 +82,29 @@ TEST(ReplanProgram, RefusesOrHandsOnWhatItCannotPlan) {
   EXPECT_EQ(file_text(folder.path("out.gcode")), text);
   EXPECT_EQ(run(folder, "replan in.gcode --post-process --keep-going").exit_code, 0);
   EXPECT_EQ(file_text(folder.path("in.gcode")), text);
+}
+
+TEST(ReplanProgram, HandsOnNothingWhereThereIsNoFile) {
+  const TestFolder folder;
+  for (const char* arguments :
+       {"replan --post-process --keep-going missing.gcode", "replan . --keep-going -o out.gcode"}) {
+    const Outcome refused = run(folder, arguments);
+    EXPECT_EQ(refused.exit_code, 2) << arguments;
+    EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  }
+}
+
+TEST(ReplanProgram, RefusesFilesThatWereCutOff) {
+  const TestFolder folder;
+  const std::string cura = file_text(std::string(CLEANCOLOR_ROOT) + "/tests/replan/files/cura.gcode");
+  const std::string options = " --nozzle-offset 0x0,33x0 --offsets-in slicer -o out.gcode";
+  folder.file("line.gcode", cura.substr(0, cura.find("X", cura.size() / 2) + 2));
+  folder.file("layer.gcode", cura.substr(0, cura.find("\nG1", cura.size() / 2) + 1));
+  for (const char* file : {"line.gcode", "layer.gcode"}) {
+    const Outcome refused = run(folder, std::string("replan ") + file + options);
+    EXPECT_EQ(refused.exit_code, 2) << file << refused.out;
+    EXPECT_NE(refused.err.find("cut off"), std::string::npos) << refused.err;
+  }
 }
 
 TEST(ReplanProgram, HandsOnBinaryFilesWithAHint) {
