@@ -234,8 +234,13 @@ class Recovery {
     keep(true);
   }
 
-  void change_to(int tool) {
+  int known_tool(int tool) const {
     if (tool < 0 || tool >= max_tools) refuse(at_, "a tool change that is not understood");
+    return tool;
+  }
+
+  void change_to(int tool) {
+    known_tool(tool);
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
     if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
       refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
@@ -341,7 +346,7 @@ class Recovery {
       fixed.lines.emplace_back(raw_);
       // M220 holds for the tower alone.
       if (const auto what = modal_line(line_); what && line_.number != 220) set(*what);
-      if (const auto tool = tool_taken(line_)) tool_ = *tool;
+      if (const auto tool = tool_taken(line_)) tool_ = known_tool(*tool);
       for (; move_ < print_.moves.size() && print_.moves[move_].offset < next_; ++move_)
         move_filament(print_.moves[move_]);
       if (next_ >= end) break;

@@ -121,6 +121,7 @@ Wipe wipe_after(const RecoveredRun& run, std::vector<Piece> pieces, bool closed)
     filament += move.filament_e5;
     at = move.to;
   }
+  if (sum_um < 1) return {};  // on the spot, like any drawing back
   at = pieces.back().to;
   if (!closed) pieces = backwards(std::move(pieces));
   std::vector<FilePoint> way{pieces.front().from};
