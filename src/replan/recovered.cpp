@@ -154,7 +154,7 @@ class Recovery {
     if (line_.letter == 'G') return command_g();
     if (const auto tool = tool_taken(line_)) return change_to(*tool);
     if (line_.letter == 'M' && line_.number == 73) {
-      if (r_.progress_line.empty()) r_.progress_line = raw_;
+      if (r_.progress_line.empty() && raw_.starts_with("M73 P")) r_.progress_line = raw_;
       return;
     }
     if (r_.says_on_and_off && line_.letter == 'M' && (line_.number == 101 || line_.number == 103)) return;
@@ -362,6 +362,7 @@ class Recovery {
 
   void lay(std::size_t index, const GcodeMove& move, Vec3 from) {
     require_known_road(move, from);
+    require_pushed_forward();
     if (breaks_) close_gap(from);
     if (r_.layers.empty()) refuse(at_, "a road before the first layer");
     for (const Note& note : gap_) {
@@ -403,6 +404,24 @@ class Recovery {
       default:
         return;
     }
+  }
+
+  /// What start code leaves drawn back for good is none of what the layers draw back.
+  void require_pushed_forward() {
+    const auto tool = std::size_t(tool_);
+    std::int64_t& back = drawn_back_e5_[tool];
+    if (!has_laid_[tool]) {
+      const std::int64_t left = std::min(back, r_.begin_drawn_back_e5[tool]);
+      r_.begin_drawn_back_e5[tool] -= left;
+      back -= left;
+      has_laid_[tool] = true;
+    }
+    if (back > rounding_e5)
+      refuse(at_, fmt::format("a road while {:g} mm of filament are drawn back: less is pushed forward than was drawn "
+                              "back; set the extra length on restart (retract_restart_extra; Cura: "
+                              "retraction_extra_prime_amount) to 0 in the slicer",
+                              double(back) * 1e-5));
+    back = 0;
   }
 
   RecoveredRun& run() { return r_.layers.back().runs.back(); }
@@ -536,6 +555,7 @@ class Recovery {
   double feed_ = 0;
   std::vector<std::int64_t> count_e5_ = std::vector<std::int64_t>(max_tools, 0);
   std::vector<std::int64_t> drawn_back_e5_;
+  std::array<bool, max_tools> has_laid_{};  // a road among the layers
 
   // Since the last road:
   std::vector<Note> gap_;  // lines to be kept

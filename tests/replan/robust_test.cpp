@@ -33,5 +33,45 @@ TEST(ReplanRobust, AWipeOfNoLengthIsDrawnBackOnTheSpot) {
   EXPECT_NE(print.text->find(";WIPE_START"), std::string::npos);
 }
 
+/// The text with as much less (mm) pushed forward each time.
+std::string with_less_pushed(const std::string& text, double less_mm) {
+  std::string result;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    double e = 0;
+    if (std::sscanf(line.c_str(), "G1 E%lf F1500", &e) == 1 && e > 0)
+      line = fmt::format("G1 E{:.5f} F1500", e - less_mm);
+    result += line + "\n";
+  }
+  return result;
+}
+
+TEST(ReplanRobust, LessPushedForwardThanWasDrawnBackIsRefused) {
+  const std::string text = fixture("prusaslicer-tower.gcode");
+  EXPECT_ERROR(recovered_text(with_less_pushed(text, 0.1)), "retract_restart_extra");
+}
+
+TEST(ReplanRobust, WhatRoundingLeavesDrawnBackDoesNotAddUp) {
+  const std::string text = with_less_pushed(fixture("prusaslicer-tower.gcode"), 0.001);
+  const std::int64_t sound = recovered_text(fixture("prusaslicer-tower.gcode")).end_drawn_back_e5;
+  EXPECT_NEAR(double(recovered_text(text).end_drawn_back_e5), double(sound), 200);
+}
+
+TEST(ReplanRobust, WhatStartCodeLeavesDrawnBackIsNotPushedForward) {
+  const std::string bar = fixture("prusaslicer.gcode");
+  const RecoveredPrint sound = recovered_text(bar);
+  const RecoveredPrint other = recovered_text(with_line(bar, "G92 E0\nG1 E-2 F1500\nG92 E0", ";LAYER_CHANGE"));
+  EXPECT_EQ(other.begin_drawn_back_e5, sound.begin_drawn_back_e5);
+  EXPECT_EQ(other.end_drawn_back_e5, sound.end_drawn_back_e5);
+}
+
+TEST(ReplanRobust, ProgressOfAnotherModeIsNotTakenForThatOfThisOne) {
+  const std::string bar = fixture("prusaslicer.gcode");
+  const std::size_t layers = bar.find(";LAYER_CHANGE");
+  const std::string both = with_line(with_line(bar, "M73 P50 R3", ";TYPE:", layers), "M73 Q50 S4", "M73 P50");
+  EXPECT_EQ(recovered_text(both).progress_line, "M73 P50 R3");
+  EXPECT_EQ(recovered_text(with_line(bar, "M73 Q50 S4", ";TYPE:", layers)).progress_line, "");
+}
+
 }  // namespace
 }  // namespace cleancolor
