@@ -132,6 +132,9 @@ class Recovery {
     for (const GcodeEvent& e : print_.events)
       if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) tool_ = e.tool;
     r_.begin_tool = tool_;
+    is_timed_[std::size_t(tool_)] = true;
+    for (std::size_t i = move_; i < print_.moves.size() && print_.moves[i].offset < r_.end; ++i)
+      if (lays_plastic(print_, i)) is_timed_[print_.moves[i].feeds] = true;
     // A wall of a rampart says what it is; what follows must say again that it does not.
     if (print_.facts.dialect == Dialect::slic3r)
       for (const auto& [key, line] :
@@ -216,10 +219,12 @@ class Recovery {
     breaks_ = true;
   }
 
+  bool is_timed(double tool) const { return tool >= 0 && tool < max_tools && is_timed_[std::size_t(tool)]; }
+
   void command() {
     const bool asks = line_.letter == 'M' && line_.number == 105;  // how hot it is
     const bool heats = line_.letter == 'M' && (line_.number == 104 || line_.number == 109);
-    if (words_.times_heaters && (asks || heats)) return;
+    if (words_.times_heaters && (asks || (heats && is_timed(line_.value_or('T', tool_))))) return;
     if (words_.times_heaters && has_tool_ && line_.letter == 'M' && line_.number == 116) return keep(true);
     if (is_temperature(line_)) {
       const bool bed = line_.number == 140 || line_.number == 190;
@@ -556,6 +561,7 @@ class Recovery {
   std::vector<std::int64_t> count_e5_ = std::vector<std::int64_t>(max_tools, 0);
   std::vector<std::int64_t> drawn_back_e5_;
   std::array<bool, max_tools> has_laid_{};  // a road among the layers
+  std::array<bool, max_tools> is_timed_{};  // its heater, where the dialect times them: it prints among the layers
 
   // Since the last road:
   std::vector<Note> gap_;  // lines to be kept

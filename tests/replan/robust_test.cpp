@@ -73,5 +73,21 @@ TEST(ReplanRobust, ProgressOfAnotherModeIsNotTakenForThatOfThisOne) {
   EXPECT_EQ(recovered_text(with_line(bar, "M73 Q50 S4", ";TYPE:", layers)).progress_line, "");
 }
 
+/// Line is put behind that which begins so.
+std::string with_line_behind(std::string text, const std::string& line, const std::string& behind) {
+  return text.insert(text.find('\n', text.find(behind)) + 1, line + "\n");
+}
+
+TEST(ReplanRobust, ATemperatureOfAToolThatPrintsNothingStays) {
+  const std::string bar = fixture("cura.gcode");
+  const MachineRequest apart{.nozzle_offset_mm = {{0, 0}, {33, 0}}};
+  for (const char* line : {"M104 T2 S0", "M109 T2 S60"}) {
+    SCOPED_TRACE(line);
+    const std::string out = replanned_text(with_line_behind(bar, line, ";LAYER:2"), {}, {}, apart).text;
+    EXPECT_NE(out.find(fmt::format(";LAYER:2\n{}\n", line)), out.npos);
+    EXPECT_ERROR(recovered_text(with_line_behind(bar, line, "G1 F1800")), "cannot be moved");
+  }
+}
+
 }  // namespace
 }  // namespace cleancolor
