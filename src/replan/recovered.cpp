@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/error.hpp"
 #include "model/text_scan.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double same_height_mm = 0.0005;
 constexpr std::int64_t rounding_e5 = 200;  // of what is drawn back and pushed forward again
+constexpr std::size_t most_settings = 64;  // that a print is under at once
 
 std::int64_t to_um(double mm) {
   return std::llround(mm * 1e3);
@@ -71,9 +73,20 @@ class Recovery {
 
   /// As the file leaves it so far.
   std::uint32_t state_index() {
-    if (state_changed_ && r_.states.back() != state_) r_.states.push_back(state_);
-    state_changed_ = false;
-    return std::uint32_t(r_.states.size() - 1);
+    if (!std::exchange(state_changed_, false)) return state_index_;
+    const auto [found, is_new] = index_of_state_.try_emplace(state_, std::uint32_t(r_.states.size()));
+    if (is_new) r_.states.push_back(state_);
+    return state_index_ = found->second;
+  }
+
+  void take_state(const ModalLine& what) {
+    take(state_, what, raw_);
+    if (state_.size() > most_settings)
+      refuse(at_,
+             fmt::format("'{}': more than {} things are set by lines like this; take it out of the slicer's custom "
+                         "G-code",
+                         shown(trimmed(raw_)), most_settings));
+    state_changed_ = true;
   }
 
   /// Index of the move that the line makes; nothing where it makes none.
@@ -124,7 +137,7 @@ class Recovery {
     if (line_.letter == 'M' && (line_.number == 82 || line_.number == 83)) r_.relative_e = line_.number == 83;
     count_e();
     if (const auto tool = tool_taken(line_); tool && *tool >= 0 && *tool < max_tools) tool_ = *tool;
-    if (const auto what = modal_line(line_)) take(state_, *what, raw_);
+    if (const auto what = modal_line(line_)) take_state(*what);
     while (move_ < print_.moves.size() && print_.moves[move_].offset < next_) move_filament(print_.moves[move_++]);
   }
 
@@ -140,8 +153,8 @@ class Recovery {
       for (const auto& [key, line] :
            {std::pair(type_key, ";TYPE:Unknown"), {width_key, ";WIDTH:0"}, {height_key, ";HEIGHT:0"}})
         state_.try_emplace(std::string(key), line);
-    r_.states.push_back(state_);
-    state_.try_emplace("fan", "M107");
+    r_.begin_state = state_index();
+    state_changed_ = state_.try_emplace("fan", "M107").second;
     if (words_.begins_drawn_back) take_first_pushes();
     r_.begin_drawn_back_e5 = drawn_back_e5_;
     r_.begin_count_e5 = count_e5_;
@@ -153,7 +166,7 @@ class Recovery {
     if (raw_.starts_with(";TYPE:Wipe tower")) return tower();
     count_e();
     if (line_.letter == 0 && line_.word.empty() && line_.present == 0) return comment();
-    if (const auto what = modal_line(line_)) return set(*what);
+    if (const auto what = modal_line(line_)) return take_state(*what);
     if (line_.letter == 'G') return command_g();
     if (const auto tool = tool_taken(line_)) return change_to(*tool);
     if (line_.letter == 'M' && line_.number == 73) {
@@ -164,11 +177,6 @@ class Recovery {
     if (line_.letter == 0 && line_.word.empty())
       refuse(at_, "a move without its G command among the layers is not re-planned");
     command();
-  }
-
-  void set(const ModalLine& what) {
-    take(state_, what, raw_);
-    state_changed_ = true;
   }
 
   void comment() {
@@ -185,7 +193,7 @@ class Recovery {
       return;
     }
     if (const auto what = modal_line(line_)) {
-      set(*what);
+      take_state(*what);
       if (has_layer_mark_ && !has_tool_ && !left_header_ && what->key == height_key) gap_.push_back({raw_, at_, false});
       return;
     }
@@ -350,7 +358,7 @@ class Recovery {
       count_e();
       fixed.lines.emplace_back(raw_);
       // M220 holds for the tower alone.
-      if (const auto what = modal_line(line_); what && line_.number != 220) set(*what);
+      if (const auto what = modal_line(line_); what && line_.number != 220) take_state(*what);
       if (const auto tool = tool_taken(line_)) tool_ = known_tool(*tool);
       for (; move_ < print_.moves.size() && print_.moves[move_].offset < next_; ++move_)
         move_filament(print_.moves[move_]);
@@ -532,8 +540,7 @@ class Recovery {
   void finish() {
     leave_run();
     r_.end_tool = tool_;
-    if (r_.states.back() != state_) r_.states.push_back(state_);
-    r_.end_state = std::uint32_t(r_.states.size() - 1);
+    r_.end_state = state_index();
     r_.end_count_e5 = count_e5(tool_);
     r_.end_drawn_back_e5 = drawn_back_e5_[std::size_t(tool_)];
     r_.end_feed_mm_min = feed_;
@@ -556,6 +563,8 @@ class Recovery {
 
   ModalState state_;
   bool state_changed_ = true;
+  std::uint32_t state_index_ = 0;
+  std::map<ModalState, std::uint32_t> index_of_state_;
   int tool_ = 0, from_tool_ = 0;
   double feed_ = 0;
   std::vector<std::int64_t> count_e5_ = std::vector<std::int64_t>(max_tools, 0);

@@ -89,5 +89,22 @@ TEST(ReplanRobust, ATemperatureOfAToolThatPrintsNothingStays) {
   }
 }
 
+TEST(ReplanRobust, StatesThatAreEqualAreKeptOnce) {
+  for (const char* name : {"prusaslicer", "prusaslicer-tower", "cura"}) {
+    SCOPED_TRACE(name);
+    const RecoveredPrint print = recovered_text(fixture(fmt::format("{}.gcode", name)));
+    for (std::size_t i = 0; i < print.states.size(); ++i)
+      EXPECT_EQ(std::ranges::count(print.states, print.states[i]), 1) << i;
+  }
+}
+
+TEST(ReplanRobust, MoreFansThanAnyPrinterHasAreRefused) {
+  std::string fans;
+  for (int fan = 0; fan < 70; ++fan) fans += fmt::format("M106 P{} S9\n", fan);
+  const std::string bar = fixture("prusaslicer.gcode");
+  EXPECT_ERROR(recovered_text(with_line(bar, fans, "G1 ", bar.find(";LAYER_CHANGE"))), "M106 P6");
+  EXPECT_ERROR(recovered_text(with_line(bar, fans, "G28")), "M106 P6");
+}
+
 }  // namespace
 }  // namespace cleancolor
