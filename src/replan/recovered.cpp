@@ -334,6 +334,13 @@ class Recovery {
     back_after_ = 0;
   }
 
+  /// The first move from there on that lays plastic; else their number.  Requires: there is no less than before.
+  std::size_t next_plastic(std::size_t from) {
+    next_plastic_ = std::max(next_plastic_, from);
+    while (next_plastic_ < print_.moves.size() && !lays_plastic(print_, next_plastic_)) ++next_plastic_;
+    return next_plastic_;
+  }
+
   /// A piece of a wipe tower: all from its first comment to its last road stays as it is.
   void tower() {
     if (!r_.relative_e) refuse(at_, "a wipe tower with absolute E is not re-planned; switch on relative E");
@@ -341,7 +348,7 @@ class Recovery {
     while (i < print_.moves.size() && print_.moves[i].offset < at_) ++i;
     if (i == 0 || has_tool_) refuse(at_, "a wipe tower that begins with a tool change is not re-planned");
     const Vec3 from = print_.moves[i - 1].to_mm;
-    for (; i < print_.moves.size(); ++i) {
+    for (i = next_plastic(i); i < print_.moves.size(); ++i) {
       if (!lays_plastic(print_, i)) continue;
       const GcodeMove& move = print_.moves[i];
       if (move.role != Role::wipe_tower || std::abs(move.to_mm.z - from.z) > same_height_mm) break;
@@ -557,7 +564,7 @@ class Recovery {
   std::string_view text_;
   RecoveredPrint r_;
 
-  std::size_t at_ = 0, next_ = 0, move_ = 0;
+  std::size_t at_ = 0, next_ = 0, move_ = 0, next_plastic_ = 0;
   std::string_view raw_;
   GcodeLine line_;
 

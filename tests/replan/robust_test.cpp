@@ -106,5 +106,16 @@ TEST(ReplanRobust, MoreFansThanAnyPrinterHasAreRefused) {
   EXPECT_ERROR(recovered_text(with_line(bar, fans, "G28")), "M106 P6");
 }
 
+TEST(ReplanRobust, PiecesOfATowerThatLayNothingAreReadInOneGo) {
+  const std::string text = fixture("prusaslicer-tower.gcode");
+  std::string pieces;
+  for (int i = 0; i < 100'000; ++i) pieces += fmt::format(";TYPE:Wipe tower\nG1 X{} Y0\n", i % 2);
+  const GcodePrint print =
+      read_gcode(with_line(text, pieces + ";TYPE:Perimeter", "G1 E", text.find(";TYPE:Perimeter")), "in.gcode");
+  const auto begin = std::chrono::steady_clock::now();
+  error_of([&] { recovered_print(print); });
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+}
+
 }  // namespace
 }  // namespace cleancolor
