@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "replan/heaters.hpp"
 #include "replan/recovered.hpp"
 #include "replanning.hpp"
 
@@ -114,6 +115,21 @@ TEST(ReplanRobust, PiecesOfATowerThatLayNothingAreReadInOneGo) {
       read_gcode(with_line(text, pieces + ";TYPE:Perimeter", "G1 E", text.find(";TYPE:Perimeter")), "in.gcode");
   const auto begin = std::chrono::steady_clock::now();
   error_of([&] { recovered_print(print); });
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+}
+
+TEST(ReplanRobust, TemperaturesOfManyChangesAreReadInOneGo) {
+  std::string text = ";FLAVOR:Marlin\n;Generated with Cura_SteamEngine 4.13.0\nT0\nM104 T0 S200\nM104 T1 S200\nM83\n";
+  text += ";LAYER_COUNT:1\n;LAYER:0\nG1 F1200 X0 Y0 Z0.3\n;TYPE:WALL-OUTER\n";
+  for (int i = 0; i < 100'000; ++i)
+    text += fmt::format("G1 X{} E0.1\nT{}\nM104 T{} S150\n", (i + 1) % 2, (i + 1) % 2, i % 2);
+  text += "G1 X0 E0.1\n";
+  const GcodePrint print = read_gcode(text, "in.gcode");
+  const AuditMachine machine = audit_machine(print, {.nozzle_offset_mm = {{0, 0}, {33, 0}}});
+  RecoveredPrint layers;
+  layers.begin = text.find(";LAYER:0"), layers.end = text.size();
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_NE(with_heaters(layers, print, print, machine, ";LAYER:").size(), 0u);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 
