@@ -45,13 +45,22 @@ void Emitter::lines(std::span<const std::string> all) {
 void Emitter::set(const ModalState& to) {
   lines(lines_between(state_, to));
   for (const auto& [key, text] : to) state_[key] = text;
+  known_state_.reset();
+}
+
+void Emitter::set_known(std::uint32_t state) {
+  if (known_state_ == state) return;
+  set(recovered_.states[state]);
+  known_state_ = state;
 }
 
 void Emitter::forget(std::string_view key) {
   if (const auto found = state_.find(key); found != state_.end()) state_.erase(found);
+  known_state_.reset();
 }
 
 void Emitter::header(std::span<const std::string> all) {
+  known_state_.reset();
   for (const std::string& text : all) {
     line(text);
     GcodeLine parsed;

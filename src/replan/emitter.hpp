@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,7 +34,8 @@ class Emitter {
   void line(std::string_view text);
   void lines(std::span<const std::string> all);
   void set(const ModalState& to);
-  void forget(std::string_view key);  // it is told anew
+  void set_known(std::uint32_t state);  // index into RecoveredPrint::states
+  void forget(std::string_view key);    // it is told anew
 
   /// Lines that may be modal ones: the state follows.
   void header(std::span<const std::string> all);
@@ -75,6 +77,7 @@ class Emitter {
   const Config& config_;
   std::string text_;
   ModalState state_;
+  std::optional<std::uint32_t> known_state_;  // that the text is left in
   int tool_ = 0;
   bool known_ = false, z_known_ = false;
   FilePoint at_;

@@ -99,6 +99,9 @@ std::map<int, HeaterHabits> habits_of(const RecoveredPrint& recovered, const Gco
 
   // Between two uses: how cool it becomes, and when it is told to be hot again.
   const std::vector<GcodeEvent> targets = targets_among_layers(recovered, print);
+  std::map<int, std::vector<GcodeEvent>> targets_of;
+  for (const GcodeEvent& e : targets) targets_of[e.tool].push_back(e);
+  std::map<int, std::size_t> told;  // so many of them
   std::map<int, double> left_s;
   for (const ToolUse& use : uses_of(print, begin)) {
     HeaterHabits& habits = all[use.tool];
@@ -106,9 +109,10 @@ std::map<int, HeaterHabits> habits_of(const RecoveredPrint& recovered, const Gco
     const bool was_used = left_s.contains(use.tool);
     std::optional<double> coolest_c, heats_s;
     if (!was_used) coolest_c = habits.begin_c;
-    for (const GcodeEvent& e : targets) {
-      const bool while_idle = e.before_move < use.begin && (!was_used || at_s[e.before_move] >= left_s[use.tool]);
-      if (e.tool != use.tool || !while_idle) continue;
+    const std::vector<GcodeEvent>& own = targets_of[use.tool];
+    for (std::size_t& i = told[use.tool]; i < own.size() && own[i].before_move < use.begin; ++i) {
+      const GcodeEvent& e = own[i];
+      if (was_used && at_s[e.before_move] < left_s[use.tool]) continue;  // while it printed
       if (coolest_c && e.value > *coolest_c + same_c) heats_s = at_s[e.before_move];
       if (!coolest_c || e.value < *coolest_c) coolest_c = e.value, heats_s.reset();
     }

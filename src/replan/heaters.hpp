@@ -21,8 +21,9 @@ namespace cleancolor {
 /// Whether a temperature of a nozzle is set among the layers.
 bool sets_temperatures(const RecoveredPrint& recovered, const GcodePrint& print);
 
-/// The text of `after`, which has none of the temperatures that stand among the layers of `print`.
-/// layer_mark: how its layers begin.  Cost: linear in the number of moves, tool changes times temperatures.
+/// The text of `after`, which has none of the temperatures that stand among the layers of `print` but those of tools
+/// that print nothing there.
+/// layer_mark: how its layers begin.  Cost: linear in the number of moves, tool changes and temperatures.
 std::string with_heaters(const RecoveredPrint& recovered, const GcodePrint& print, const GcodePrint& after,
                          const AuditMachine& machine, std::string_view layer_mark);
 

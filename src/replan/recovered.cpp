@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/error.hpp"
 #include "model/text_scan.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double same_height_mm = 0.0005;
 constexpr std::int64_t rounding_e5 = 200;  // of what is drawn back and pushed forward again
+constexpr std::size_t most_settings = 64;  // that a print is under at once
 
 std::int64_t to_um(double mm) {
   return std::llround(mm * 1e3);
@@ -71,9 +73,20 @@ class Recovery {
 
   /// As the file leaves it so far.
   std::uint32_t state_index() {
-    if (state_changed_ && r_.states.back() != state_) r_.states.push_back(state_);
-    state_changed_ = false;
-    return std::uint32_t(r_.states.size() - 1);
+    if (!std::exchange(state_changed_, false)) return state_index_;
+    const auto [found, is_new] = index_of_state_.try_emplace(state_, std::uint32_t(r_.states.size()));
+    if (is_new) r_.states.push_back(state_);
+    return state_index_ = found->second;
+  }
+
+  void take_state(const ModalLine& what) {
+    take(state_, what, raw_);
+    if (state_.size() > most_settings)
+      refuse(at_,
+             fmt::format("'{}': more than {} things are set by lines like this; take it out of the slicer's custom "
+                         "G-code",
+                         shown(trimmed(raw_)), most_settings));
+    state_changed_ = true;
   }
 
   /// Index of the move that the line makes; nothing where it makes none.
@@ -124,7 +137,7 @@ class Recovery {
     if (line_.letter == 'M' && (line_.number == 82 || line_.number == 83)) r_.relative_e = line_.number == 83;
     count_e();
     if (const auto tool = tool_taken(line_); tool && *tool >= 0 && *tool < max_tools) tool_ = *tool;
-    if (const auto what = modal_line(line_)) take(state_, *what, raw_);
+    if (const auto what = modal_line(line_)) take_state(*what);
     while (move_ < print_.moves.size() && print_.moves[move_].offset < next_) move_filament(print_.moves[move_++]);
   }
 
@@ -132,13 +145,16 @@ class Recovery {
     for (const GcodeEvent& e : print_.events)
       if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) tool_ = e.tool;
     r_.begin_tool = tool_;
+    is_timed_[std::size_t(tool_)] = true;
+    for (std::size_t i = move_; i < print_.moves.size() && print_.moves[i].offset < r_.end; ++i)
+      if (lays_plastic(print_, i)) is_timed_[print_.moves[i].feeds] = true;
     // A wall of a rampart says what it is; what follows must say again that it does not.
     if (print_.facts.dialect == Dialect::slic3r)
       for (const auto& [key, line] :
            {std::pair(type_key, ";TYPE:Unknown"), {width_key, ";WIDTH:0"}, {height_key, ";HEIGHT:0"}})
         state_.try_emplace(std::string(key), line);
-    r_.states.push_back(state_);
-    state_.try_emplace("fan", "M107");
+    r_.begin_state = state_index();
+    state_changed_ = state_.try_emplace("fan", "M107").second;
     if (words_.begins_drawn_back) take_first_pushes();
     r_.begin_drawn_back_e5 = drawn_back_e5_;
     r_.begin_count_e5 = count_e5_;
@@ -150,22 +166,17 @@ class Recovery {
     if (raw_.starts_with(";TYPE:Wipe tower")) return tower();
     count_e();
     if (line_.letter == 0 && line_.word.empty() && line_.present == 0) return comment();
-    if (const auto what = modal_line(line_)) return set(*what);
+    if (const auto what = modal_line(line_)) return take_state(*what);
     if (line_.letter == 'G') return command_g();
     if (const auto tool = tool_taken(line_)) return change_to(*tool);
     if (line_.letter == 'M' && line_.number == 73) {
-      if (r_.progress_line.empty()) r_.progress_line = raw_;
+      if (r_.progress_line.empty() && raw_.starts_with("M73 P")) r_.progress_line = raw_;
       return;
     }
     if (r_.says_on_and_off && line_.letter == 'M' && (line_.number == 101 || line_.number == 103)) return;
     if (line_.letter == 0 && line_.word.empty())
       refuse(at_, "a move without its G command among the layers is not re-planned");
     command();
-  }
-
-  void set(const ModalLine& what) {
-    take(state_, what, raw_);
-    state_changed_ = true;
   }
 
   void comment() {
@@ -182,7 +193,7 @@ class Recovery {
       return;
     }
     if (const auto what = modal_line(line_)) {
-      set(*what);
+      take_state(*what);
       if (has_layer_mark_ && !has_tool_ && !left_header_ && what->key == height_key) gap_.push_back({raw_, at_, false});
       return;
     }
@@ -216,10 +227,12 @@ class Recovery {
     breaks_ = true;
   }
 
+  bool is_timed(double tool) const { return tool >= 0 && tool < max_tools && is_timed_[std::size_t(tool)]; }
+
   void command() {
     const bool asks = line_.letter == 'M' && line_.number == 105;  // how hot it is
     const bool heats = line_.letter == 'M' && (line_.number == 104 || line_.number == 109);
-    if (words_.times_heaters && (asks || heats)) return;
+    if (words_.times_heaters && (asks || (heats && is_timed(line_.value_or('T', tool_))))) return;
     if (words_.times_heaters && has_tool_ && line_.letter == 'M' && line_.number == 116) return keep(true);
     if (is_temperature(line_)) {
       const bool bed = line_.number == 140 || line_.number == 190;
@@ -234,8 +247,13 @@ class Recovery {
     keep(true);
   }
 
-  void change_to(int tool) {
+  int known_tool(int tool) const {
     if (tool < 0 || tool >= max_tools) refuse(at_, "a tool change that is not understood");
+    return tool;
+  }
+
+  void change_to(int tool) {
+    known_tool(tool);
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
     if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
       refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
@@ -316,6 +334,13 @@ class Recovery {
     back_after_ = 0;
   }
 
+  /// The first move from there on that lays plastic; else their number.  Requires: there is no less than before.
+  std::size_t next_plastic(std::size_t from) {
+    next_plastic_ = std::max(next_plastic_, from);
+    while (next_plastic_ < print_.moves.size() && !lays_plastic(print_, next_plastic_)) ++next_plastic_;
+    return next_plastic_;
+  }
+
   /// A piece of a wipe tower: all from its first comment to its last road stays as it is.
   void tower() {
     if (!r_.relative_e) refuse(at_, "a wipe tower with absolute E is not re-planned; switch on relative E");
@@ -323,7 +348,7 @@ class Recovery {
     while (i < print_.moves.size() && print_.moves[i].offset < at_) ++i;
     if (i == 0 || has_tool_) refuse(at_, "a wipe tower that begins with a tool change is not re-planned");
     const Vec3 from = print_.moves[i - 1].to_mm;
-    for (; i < print_.moves.size(); ++i) {
+    for (i = next_plastic(i); i < print_.moves.size(); ++i) {
       if (!lays_plastic(print_, i)) continue;
       const GcodeMove& move = print_.moves[i];
       if (move.role != Role::wipe_tower || std::abs(move.to_mm.z - from.z) > same_height_mm) break;
@@ -340,8 +365,8 @@ class Recovery {
       count_e();
       fixed.lines.emplace_back(raw_);
       // M220 holds for the tower alone.
-      if (const auto what = modal_line(line_); what && line_.number != 220) set(*what);
-      if (const auto tool = tool_taken(line_)) tool_ = *tool;
+      if (const auto what = modal_line(line_); what && line_.number != 220) take_state(*what);
+      if (const auto tool = tool_taken(line_)) tool_ = known_tool(*tool);
       for (; move_ < print_.moves.size() && print_.moves[move_].offset < next_; ++move_)
         move_filament(print_.moves[move_]);
       if (next_ >= end) break;
@@ -357,6 +382,7 @@ class Recovery {
 
   void lay(std::size_t index, const GcodeMove& move, Vec3 from) {
     require_known_road(move, from);
+    require_pushed_forward();
     if (breaks_) close_gap(from);
     if (r_.layers.empty()) refuse(at_, "a road before the first layer");
     for (const Note& note : gap_) {
@@ -398,6 +424,24 @@ class Recovery {
       default:
         return;
     }
+  }
+
+  /// What start code leaves drawn back for good is none of what the layers draw back.
+  void require_pushed_forward() {
+    const auto tool = std::size_t(tool_);
+    std::int64_t& back = drawn_back_e5_[tool];
+    if (!has_laid_[tool]) {
+      const std::int64_t left = std::min(back, r_.begin_drawn_back_e5[tool]);
+      r_.begin_drawn_back_e5[tool] -= left;
+      back -= left;
+      has_laid_[tool] = true;
+    }
+    if (back > rounding_e5)
+      refuse(at_, fmt::format("a road while {:g} mm of filament are drawn back: less is pushed forward than was drawn "
+                              "back; set the extra length on restart (retract_restart_extra; Cura: "
+                              "retraction_extra_prime_amount) to 0 in the slicer",
+                              double(back) * 1e-5));
+    back = 0;
   }
 
   RecoveredRun& run() { return r_.layers.back().runs.back(); }
@@ -503,8 +547,7 @@ class Recovery {
   void finish() {
     leave_run();
     r_.end_tool = tool_;
-    if (r_.states.back() != state_) r_.states.push_back(state_);
-    r_.end_state = std::uint32_t(r_.states.size() - 1);
+    r_.end_state = state_index();
     r_.end_count_e5 = count_e5(tool_);
     r_.end_drawn_back_e5 = drawn_back_e5_[std::size_t(tool_)];
     r_.end_feed_mm_min = feed_;
@@ -521,16 +564,20 @@ class Recovery {
   std::string_view text_;
   RecoveredPrint r_;
 
-  std::size_t at_ = 0, next_ = 0, move_ = 0;
+  std::size_t at_ = 0, next_ = 0, move_ = 0, next_plastic_ = 0;
   std::string_view raw_;
   GcodeLine line_;
 
   ModalState state_;
   bool state_changed_ = true;
+  std::uint32_t state_index_ = 0;
+  std::map<ModalState, std::uint32_t> index_of_state_;
   int tool_ = 0, from_tool_ = 0;
   double feed_ = 0;
   std::vector<std::int64_t> count_e5_ = std::vector<std::int64_t>(max_tools, 0);
   std::vector<std::int64_t> drawn_back_e5_;
+  std::array<bool, max_tools> has_laid_{};  // a road among the layers
+  std::array<bool, max_tools> is_timed_{};  // its heater, where the dialect times them: it prints among the layers
 
   // Since the last road:
   std::vector<Note> gap_;  // lines to be kept

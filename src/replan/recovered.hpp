@@ -100,7 +100,7 @@ struct RecoveredPrint {
   std::int64_t end_count_e5 = 0;                  // of the last one
   std::int64_t end_drawn_back_e5 = 0;             // by a wipe after the last road
   double end_feed_mm_min = 0;
-  std::string progress_line;      // the first M73 among the layers, which are told anew; empty: there are none
+  std::string progress_line;      // the first M73 P among the layers, which are told anew; empty: there are none
   std::size_t elapsed_lines = 0;  // likewise, of the time so far
   double change_lift_mm = 0;      // of a nozzle before another one takes over
 };

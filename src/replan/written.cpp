@@ -121,6 +121,7 @@ Wipe wipe_after(const RecoveredRun& run, std::vector<Piece> pieces, bool closed)
     filament += move.filament_e5;
     at = move.to;
   }
+  if (sum_um < 1) return {};  // on the spot, like any drawing back
   at = pieces.back().to;
   if (!closed) pieces = backwards(std::move(pieces));
   std::vector<FilePoint> way{pieces.front().from};
@@ -168,7 +169,7 @@ class Writing {
     }
     wipe(recovered_.end_drawn_back_e5);
     out_.draw_back(recovered_.end_drawn_back_e5);
-    out_.set(recovered_.states[recovered_.end_state]);
+    out_.set_known(recovered_.end_state);
     std::string text = out_.finish();
     text += print_.text->substr(recovered_.end);
     return text;
@@ -337,7 +338,7 @@ class Writing {
     out_.lines(run.notes);
     push_forward();
     for (const Piece& p : pieces) {
-      out_.set(recovered_.states[p.state]);
+      out_.set_known(p.state);
       out_.road(p.to, p.filament_e5, p.feed_mm_min);
     }
     wipe_ = options_.as_in_file ? Wipe{run.wipe_from, run.back_before_wipe_e5, run.wipe}
@@ -357,7 +358,7 @@ class Writing {
     out_.lines(run.notes);
     if (run.fixed->lays) {
       push_forward();
-      out_.set(recovered_.states[run.fixed->state]);
+      out_.set_known(run.fixed->state);
     }
     out_.fixed(*run.fixed);
     last_ = nullptr;
