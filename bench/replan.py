@@ -26,7 +26,7 @@ SMEAR, LITTLE_SMEAR_MM3, HOLES, TIME = 1 / 8, 0.2, 1 / 4, 1.30
 FILAMENT = 1e-4  # of each nozzle and type of road
 AUXILIARY = ("skirt", "brim", "tower", "custom", "wipe")
 NEAR_MM = 0.003  # ends of roads are rounded to 0.001 mm
-SEAM_GAP_MM = 0.25  # that slicers leave where a loop ends: PrusaSlicer 0.06, Cura up to that
+SEAM_GAP_MM = 0.3  # that slicers leave where a loop ends: PrusaSlicer 0.06, Cura up to 0.27
 
 WORD = re.compile(r"([XYZE])(-?[0-9.]+)")
 

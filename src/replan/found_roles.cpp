@@ -9,13 +9,12 @@
 #include "base/error.hpp"
 #include "model/text_scan.hpp"
 #include "printed/regions.hpp"
+#include "replan/closed_runs.hpp"
 
 namespace cleancolor {
 namespace {
 
 constexpr double detail_mm = 0.05;
-constexpr double seam_widths = 0.6;    // ends of a loop so near to its start are its seam
-constexpr double least_round = 8;      // a loop is so many times longer than its gap
 constexpr double outer_widths = 0.8;   // middles of outer walls are nearer than that to the border
 constexpr double skirt_room_mm = 0.6;  // between a skirt and all else
 constexpr std::size_t samples = 24;    // places of a loop that are asked how deep it lies
@@ -58,7 +57,7 @@ std::vector<std::vector<Run>> runs_by_layer(const GcodePrint& print, const Audit
       const double gap = distance(run.points.front(), run.points.back());
       double length = 0;
       for (std::size_t i = 0; i + 1 < run.points.size(); ++i) length += distance(run.points[i], run.points[i + 1]);
-      run.closed = run.points.size() > 3 && gap <= seam_widths * run.width_mm && length > least_round * gap;
+      run.closed = run.points.size() > 3 && comes_back(gap, length, run.width_mm);
     }
   return layers;
 }

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "replan/closed_runs.hpp"
+
 namespace cleancolor {
 namespace {
 
 constexpr std::size_t skirt_layers = 5;  // a skirt in more is a shield
-constexpr double seam_widths = 0.6;      // ends of a loop so near to its start are its seam
 
 bool is_skirt(const RecoveredRun& run, const GcodePrint& print) {
   return std::ranges::all_of(run.roads,
@@ -33,7 +34,7 @@ std::vector<std::vector<std::size_t>> shield_runs(const RecoveredPrint& recovere
 Path as_wall(Path path) {
   for (Stretch& s : path.stretches) s.road.role = Role::rampart;
   const double gap = distance(path.points.front(), path.points.back());
-  if (path.closed || path.points.size() < 4 || gap > seam_widths * path.road().width_mm) return path;
+  if (path.closed || path.points.size() < 4 || !comes_back(gap, length_mm(path), path.road().width_mm)) return path;
   path.closed = true;
   if (gap == 0) path.points.pop_back();
   return path;

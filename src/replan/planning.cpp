@@ -17,6 +17,7 @@
 #include "printed/regions.hpp"
 #include "printed/zones.hpp"
 #include "protection.hpp"
+#include "replan/closed_runs.hpp"
 #include "replan/columns.hpp"
 #include "replan/cura.hpp"
 #include "replan/kept_shield.hpp"
@@ -28,9 +29,7 @@
 namespace cleancolor {
 namespace {
 
-constexpr double detail_mm = 0.02;   // of recovered regions
-constexpr double seam_widths = 0.6;  // ends of a loop so near to its start are its seam
-constexpr double least_round = 8;    // a loop is so many times longer than its gap
+constexpr double detail_mm = 0.02;  // of recovered regions
 constexpr double same_width_mm = 0.02;
 constexpr double same_speed = 0.02;        // share
 constexpr double crack_mm = 0.05;          // between two colours is no air
@@ -370,8 +369,8 @@ Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodeP
   }
   const double gap = distance(path.points.front(), path.points.back());
   const bool walls = std::ranges::all_of(path.stretches, [](const Stretch& s) { return is_wall(s.road.role); });
-  const bool comes_back = gap <= seam_widths * path.road().width_mm && length_mm(path) > least_round * gap;
-  if (!walls || !comes_back || path.points.size() < 4) return path;
+  const bool is_loop = comes_back(gap, length_mm(path), path.road().width_mm);
+  if (!walls || !is_loop || path.points.size() < 4) return path;
   path.closed = true;
   if (gap == 0) path.points.pop_back();
   return path;
