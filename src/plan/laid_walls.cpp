@@ -5,6 +5,8 @@
 namespace cleancolor {
 namespace {
 
+constexpr double most_cells = 4e6;
+
 bool is_outer_wall(const Path& path) {
   return path.depth == 0;
 }
@@ -17,10 +19,11 @@ LaidWalls::LaidWalls(std::span<const Path> paths) {
     if (is_outer_wall(path))
       for (const Vec2 p : path.points) box.add(p);
   if (box.empty()) return;
-  const double margin_mm = 2 / per_mm;
+  while ((box.size().x * per_mm_ + 4) * (box.size().y * per_mm_ + 4) > most_cells) per_mm_ /= 1.1;
+  const double margin_mm = 2 / per_mm_;
   origin_ = box.min - Vec2{margin_mm, margin_mm};
-  columns_ = int((box.size().x + 2 * margin_mm) * per_mm) + 1;
-  rows_ = int((box.size().y + 2 * margin_mm) * per_mm) + 1;
+  columns_ = int((box.size().x + 2 * margin_mm) * per_mm_) + 1;
+  rows_ = int((box.size().y + 2 * margin_mm) * per_mm_) + 1;
   cells_.resize(std::size_t(columns_) * std::size_t(rows_));
   for (std::size_t k = 0; k < paths.size(); ++k)
     if (is_outer_wall(paths[k])) draw(paths[k], int(k));
@@ -33,10 +36,10 @@ void LaidWalls::draw(const Path& path, int index) {
   for (std::size_t i = 0; i < path.segments(); ++i) {
     const Vec2 a = path.points[i], b = path.points[(i + 1) % path.points.size()];
     const double seconds = distance(a, b) / road(i).speed_mm_s;
-    const int steps = int(distance(a, b) * per_mm) + 1;
+    const int steps = int(distance(a, b) * per_mm_) + 1;
     for (int k = 0; k < steps; ++k) {
       const double share = (k + 0.5) / steps;
-      const Vec2 p = (lerp(a, b, share) - origin_) * per_mm;
+      const Vec2 p = (lerp(a, b, share) - origin_) * per_mm_;
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
           Cell& cell = cells_[std::size_t(int(p.y) + dy) * std::size_t(columns_) + std::size_t(int(p.x) + dx)];

@@ -27,15 +27,15 @@ class LaidWalls {
   explicit LaidWalls(std::span<const Path> paths);
 
   Cell at(Vec2 p_mm) const {
-    const int x = int((p_mm.x - origin_.x) * per_mm), y = int((p_mm.y - origin_.y) * per_mm);
+    const int x = int((p_mm.x - origin_.x) * per_mm_), y = int((p_mm.y - origin_.y) * per_mm_);
     if (p_mm.x < origin_.x || p_mm.y < origin_.y || x >= columns_ || y >= rows_) return {};
     return cells_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
   }
 
  private:
-  static constexpr double per_mm = 5;  // cells
   void draw(const Path& path, int index);
 
+  double per_mm_ = 5;  // cells; fewer where there would be millions
   Vec2 origin_;
   int columns_ = 0, rows_ = 0;
   std::vector<Cell> cells_;

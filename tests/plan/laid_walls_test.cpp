@@ -25,6 +25,16 @@ TEST(LaidWalls, KnowWhichPathLaysAPlaceAndWhen) {
   EXPECT_EQ(LaidWalls(std::span(paths).first(1)).at({5, 1}).path, -1);
 }
 
+TEST(LaidWalls, KnowPlacesTenMetresApart) {
+  std::vector<Path> paths;
+  for (const double at : {-10000., 10000.})
+    paths.push_back(drawn_path(0, {{at, at}, {at + 10, at}, {at + 10, at + 10}, {at, at + 10}}, true, 0));
+  const LaidWalls walls(paths);
+  EXPECT_EQ(walls.at({-9995, -10000}).path, 0);
+  EXPECT_EQ(walls.at({10005, 10000}).path, 1);
+  EXPECT_EQ(walls.at({0, 0}).path, -1);
+}
+
 /// A square of colour 0, and what nozzle 1, 10 mm to the right and by far full, leaves on it beside a path.
 class Square : public testing::Test {
  protected:

@@ -427,6 +427,9 @@ TEST(ReplanCura, ModelsOfThePaperComeOutClean) {
   const std::string shared = CLEANCOLOR_SHARED, script = shared + "/peers/slice-cura.sh";
   if (!std::filesystem::exists(script) || std::system("command -v CuraEngine > /dev/null") != 0)
     GTEST_SKIP() << "needs CuraEngine and " << script;
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "takes minutes under sanitizers";
+#endif
   const TestFolder folder;
   const std::string out = folder.path("sliced.gcode");
   const std::string command = fmt::format(
