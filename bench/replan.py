@@ -23,6 +23,7 @@ DOCUMENT = models.ROOT / "docs" / "replan.md"
 SLICERS = {"prusa": "PrusaSlicer", "slic3r": "Slic3r", "cura": "CuraEngine"}
 # Of plain files: shares of the input's figures, and what is little enough.
 SMEAR, LITTLE_SMEAR_MM3, HOLES, TIME = 1 / 8, 0.2, 1 / 4, 1.30
+WORSE = 1.02  # of any file, and 0.05 mm3: what docs/replan.md lets pass
 FILAMENT = 1e-4  # of each nozzle and type of road
 AUXILIARY = ("skirt", "brim", "tower", "custom", "wipe")
 NEAR_MM = 0.003  # ends of roads are rounded to 0.001 mm
@@ -130,14 +131,14 @@ def judged_row(program, name, slicer, variant):
     pairs = {key: (figure(old, key), figure(new, key)) for key in ("smear_volume", "hole_volume")}
     minutes = [j["print"]["time_s"] / 60 for j in (old, new)]
     (old_smear, smear), (old_holes, holes) = pairs.values()
-    if variant == "plain":
+    if variant == "plain" and slicer != "slic3r":  # its files tell no roles
         if smear > SMEAR * old_smear and smear >= LITTLE_SMEAR_MM3:
             faults.append(f"smears {smear:.2f} of {old_smear:.2f} mm3")
         if holes > HOLES * old_holes:
             faults.append(f"holes {holes:.2f} of {old_holes:.2f} mm3")
         if minutes[1] > TIME * minutes[0]:
             faults.append(f"takes {minutes[1]:.0f} instead of {minutes[0]:.0f} min")
-    elif smear + holes > old_smear + old_holes:
+    if smear + holes > WORSE * (old_smear + old_holes) + 0.05:
         faults.append(f"smears and holes {smear + holes:.2f} instead of {old_smear + old_holes:.2f} mm3")
     row = (f"| {title} | {old_smear:.2f} / {smear:.2f} | {old_holes:.2f} / {holes:.2f} | {minutes[0]:.0f} / {minutes[1]:.0f} | "
            f"{seconds:.1f} |")
