@@ -55,6 +55,10 @@ class CommentReader {
   bool on_own_lines_ = false;                       // roles are told by comments on lines of their own
 };
 
+/// "1d 2h 7m 8s", "0 hours 42 minutes", "332.83 minutes", "1234": a number alone counts seconds. 0: no time, or a time
+/// of day.
+double seconds_of(std::string_view text);
+
 /// Reads the configuration block and the header of the file into the facts: producer, dialect, offsets, filament.
 ///
 /// Looks at the first and the last 512 kB of the text at most. A block that cannot be read is warned of, never fatal.

@@ -152,23 +152,6 @@ std::vector<std::string> colours_of(std::string_view list) {
   return colours;
 }
 
-/// "1d 2h 7m 8s", "0 hours 42 minutes", "332.83 minutes", "1234": a number alone counts seconds.
-double seconds_of(std::string_view text) {
-  double total = 0;
-  while (true) {
-    const std::size_t digit = text.find_first_of("0123456789");
-    if (digit == text.npos) return std::min(total, 1e9);
-    text.remove_prefix(digit);
-    const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
-    const double n = number<double>(text.substr(0, end)).value_or(0);
-    text.remove_prefix(end);
-    const std::size_t letter = text.find_first_not_of(' ');
-    const char unit = letter == text.npos ? 's' : text[letter];
-    if (unit == ':') return 0;
-    total += n * (unit == 'd' ? 86400 : unit == 'h' ? 3600 : unit == 'm' ? 60 : 1);
-  }
-}
-
 void take_offsets(const std::string& file, GcodeFacts& facts, std::vector<std::string>& warnings) {
   if (const auto ours = points_of(last_value(facts, "nozzle_offset")); !ours.empty()) {
     facts.nozzle_offset_mm = ours;
@@ -284,6 +267,22 @@ void take_colours(GcodeFacts& facts) {
 }
 
 }  // namespace
+
+double seconds_of(std::string_view text) {
+  double total = 0;
+  while (true) {
+    const std::size_t digit = text.find_first_of("0123456789");
+    if (digit == text.npos) return std::min(total, 1e9);
+    text.remove_prefix(digit);
+    const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
+    const double n = number<double>(text.substr(0, end)).value_or(0);
+    text.remove_prefix(end);
+    const std::size_t letter = text.find_first_not_of(' ');
+    const char unit = letter == text.npos ? 's' : text[letter];
+    if (unit == ':') return 0;
+    total += n * (unit == 'd' ? 86400 : unit == 'h' ? 3600 : unit == 'm' ? 60 : 1);
+  }
+}
 
 void read_facts(std::string_view text, const std::string& file, GcodeFacts& facts, std::vector<std::string>& warnings) {
   const std::string_view head = text.substr(0, most_bytes);

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "model/text_scan.hpp"
+#include "reader/dialect.hpp"
 #include "replan/dialect_words.hpp"
 
 namespace cleancolor {
@@ -39,15 +40,15 @@ void correct_cura_head(std::string& text, double share) {
 }
 
 /// The slicer's own estimates, longer by as much as the print is.
-void correct_config_estimates(std::string& text, double told_s, double share) {
+void correct_config_estimates(std::string& text, double share) {
   constexpr std::array<std::string_view, 2> tags = {"\n; estimated printing time (normal mode) = ",
                                                     "\n; estimated printing time (silent mode) = "};
-  if (told_s <= 0) return;
   for (const std::string_view tag : tags) {
     const std::size_t at = text.rfind(tag);
     if (at == text.npos) continue;
     const std::size_t begin = at + tag.size(), end = std::min(text.find('\n', begin), text.size());
-    text.replace(begin, end - begin, duration_text(told_s * share));
+    const double told_s = seconds_of(std::string_view(text).substr(begin, end - begin));
+    if (told_s > 0) text.replace(begin, end - begin, duration_text(told_s * share));
   }
 }
 
@@ -83,7 +84,7 @@ std::string with_progress(const GcodePrint& after, const Timeline& time, double 
 }
 
 void correct_estimates(std::string& text, const GcodePrint& before, double longer) {
-  correct_config_estimates(text, before.facts.told_time_s, longer);
+  correct_config_estimates(text, longer);
   if (before.facts.dialect == Dialect::cura) correct_cura_head(text, longer);
 }
 
