@@ -16,7 +16,7 @@ namespace cleancolor::test {
 struct Outcome {
   int exit_code = -1;  // -1: ended by a signal
   std::string out, err;
-  double cpu_seconds = 0;  // whatever else the machine does
+  double cpu_seconds = 0;  // also on a busy machine
   double peak_mb = 0;
 };
 

@@ -61,7 +61,7 @@ class Served : public testing::Test {
         server_(api_, {.port = 0, .refused = [this](const std::string& line) { note(line); }}),
         client_("127.0.0.1", server_.access().port) {
     client_.set_default_headers({{"Authorization", "Bearer " + server_.access().token}});
-    client_.set_read_timeout(60);  // on a machine that does much else, too
+    client_.set_read_timeout(60);  // on a busy machine, too
   }
 
   void note(const std::string& line) {
