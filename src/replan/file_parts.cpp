@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "replan/refusals.hpp"
 
 namespace cleancolor {
 
@@ -14,6 +15,30 @@ void refuse_line(const GcodePrint& print, std::size_t offset, const std::string&
 
 bool begins_with_one_of(std::string_view line, const std::array<std::string_view, 2>& prefixes) {
   return std::ranges::any_of(prefixes, [&](std::string_view p) { return !p.empty() && line.starts_with(p); });
+}
+
+FileHabits habits_of_file(const GcodePrint& print) {
+  FileHabits habits;
+  for (const IniEntry& entry : print.facts.config) {
+    const bool sailfish = entry.value == "sailfish", makerware = entry.value == "makerware";
+    if (entry.key == "ooze_prevention") habits.stands_aside = entry.value == "1";
+    if (entry.key != "gcode_flavor") continue;
+    habits.e_of_each_tool = sailfish || makerware;
+    habits.says_on_and_off = makerware;
+  }
+  const std::string_view text = *print.text;
+  habits.says_roles_behind = print.facts.dialect == Dialect::slic3r && text.find("\n;TYPE:") == text.npos &&
+                             text.find("gcode_comments = 1") != text.npos;
+  return habits;
+}
+
+void require_rising(const RecoveredPrint& recovered, const GcodePrint& print) {
+  for (std::size_t k = 1; k < recovered.layers.size(); ++k)
+    if (recovered.layers[k].z_mm <= recovered.layers[k - 1].z_mm + same_height_mm)
+      throw Error(
+          fmt::format("{}: layer {} is no higher than the one before: objects that are printed one after the "
+                      "other are not re-planned",
+                      print.name, k + 1));
 }
 
 std::size_t line_end(std::string_view text, std::size_t at) {

@@ -1,7 +1,7 @@
 // replan/file_parts.hpp
 //
-// File parts: where the layers of a file begin and end, and which lines of a layer's header belong to its first change
-// of tools.
+// File parts: how a file counts and says things, where its layers begin and end, and which lines of a layer's header
+// belong to its first change of tools.
 #pragma once
 
 #include <array>
@@ -21,6 +21,17 @@ namespace cleancolor {
 
 /// Whether it begins with one of them; empty ones are none.
 bool begins_with_one_of(std::string_view line, const std::array<std::string_view, 2>& prefixes);
+
+struct FileHabits {
+  bool e_of_each_tool = false;     // as in RecoveredPrint
+  bool says_on_and_off = false;    // likewise
+  bool stands_aside = false;       // at changes of tools: ooze_prevention
+  bool says_roles_behind = false;  // roads say behind them what they are: verbose comments of Slic3r
+};
+FileHabits habits_of_file(const GcodePrint& print);
+
+/// Throws Error where a layer is no higher than the one before.
+void require_rising(const RecoveredPrint& recovered, const GcodePrint& print);
 
 /// Behind the line that begins at or contains this byte.
 std::size_t line_end(std::string_view text, std::size_t at);

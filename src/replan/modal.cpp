@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "model/text_scan.hpp"
 
@@ -108,6 +109,35 @@ std::vector<std::string> lines_between(const ModalState& from, const ModalState&
   }
   std::ranges::move(lines, std::back_inserter(ends));
   return ends;
+}
+
+void StateLog::take(const ModalLine& what, std::string_view text) {
+  cleancolor::take(now_, what, text);
+  changed_ = true;
+}
+
+void StateLog::set(std::string_view key, std::string_view text) {
+  std::string& now = now_[std::string(key)];
+  changed_ = changed_ || now != text;
+  now = text;
+}
+
+void StateLog::set_first(std::string_view key, std::string_view text) {
+  if (!now_.contains(key)) set(key, text);
+}
+
+std::uint32_t StateLog::index() {
+  if (std::exchange(changed_, false)) index_ = known_.try_emplace(now_, std::uint32_t(known_.size())).first->second;
+  return index_;
+}
+
+std::vector<ModalState> StateLog::all() && {
+  std::vector<ModalState> states(known_.size());
+  while (!known_.empty()) {
+    auto one = known_.extract(known_.begin());
+    states[one.mapped()] = std::move(one.key());
+  }
+  return states;
 }
 
 }  // namespace cleancolor

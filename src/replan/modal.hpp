@@ -8,6 +8,7 @@
 // which begin and end. Whoever prints in another order says them anew where they differ.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,5 +39,23 @@ void take(ModalState& state, const ModalLine& what, std::string_view text);
 
 /// The lines that lead from one state to the other, ends of labels first. What `to` does not know stays as it is.
 std::vector<std::string> lines_between(const ModalState& from, const ModalState& to);
+
+/// What a file has set so far, and all that held at some time; equal states once.
+class StateLog {
+ public:
+  void take(const ModalLine& what, std::string_view text);
+  void set(std::string_view key, std::string_view text);
+  void set_first(std::string_view key, std::string_view text);  // where it is not set yet
+
+  std::size_t size() const { return now_.size(); }  // settings
+  std::uint32_t index();                            // of the state that holds now
+  std::vector<ModalState> all() &&;                 // in the order of their indices
+
+ private:
+  ModalState now_;
+  bool changed_ = true;
+  std::uint32_t index_ = 0;
+  std::map<ModalState, std::uint32_t> known_;
+};
 
 }  // namespace cleancolor

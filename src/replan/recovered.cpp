@@ -11,15 +11,14 @@
 
 #include "base/error.hpp"
 #include "model/text_scan.hpp"
-#include "reader/known_commands.hpp"
 #include "replan/dialect_words.hpp"
+#include "replan/filament_book.hpp"
 #include "replan/file_parts.hpp"
+#include "replan/refusals.hpp"
 
 namespace cleancolor {
 namespace {
 
-constexpr double same_height_mm = 0.0005;
-constexpr std::int64_t rounding_e5 = 200;  // of what is drawn back and pushed forward again
 constexpr std::size_t most_settings = 64;  // that a print is under at once
 
 std::int64_t to_um(double mm) {
@@ -27,10 +26,6 @@ std::int64_t to_um(double mm) {
 }
 std::int64_t to_e5(double mm) {
   return std::llround(mm * 1e5);
-}
-
-bool is_temperature(const GcodeLine& line) {
-  return line.letter == 'M' && (line.number == 104 || line.number == 109 || line.number == 140 || line.number == 190);
 }
 
 class Recovery {
@@ -42,21 +37,16 @@ class Recovery {
     r_.begin = layers.begin, r_.end = layers.end, r_.prints_after_end = layers.prints_after;
     for (const GcodeMove& move : print_.moves)
       if (move.offset < r_.begin) r_.begin_z_mm = move.to_mm.z;
-    for (const IniEntry& entry : print_.facts.config) {
-      const bool sailfish = entry.value == "sailfish", makerware = entry.value == "makerware";
-      if (entry.key == "ooze_prevention") stands_aside_ = entry.value == "1";
-      if (entry.key != "gcode_flavor") continue;
-      r_.e_of_each_tool = sailfish || makerware;
-      r_.says_on_and_off = makerware;
-    }
-    says_roles_behind_ = print_.facts.dialect == Dialect::slic3r && text_.find("\n;TYPE:") == text_.npos &&
-                         text_.find("gcode_comments = 1") != text_.npos;
-    drawn_back_e5_.resize(std::max<std::size_t>(std::size_t(print_.tools), max_tools));
+    const FileHabits habits = habits_of_file(print_);
+    r_.e_of_each_tool = habits.e_of_each_tool, r_.says_on_and_off = habits.says_on_and_off;
+    stands_aside_ = habits.stands_aside, says_roles_behind_ = habits.says_roles_behind;
+    book_ = FilamentBook(print_.tools, r_.e_of_each_tool);
     for (at_ = 0; at_ < r_.begin; at_ = next_) before_layers();
     begin_layers();
     for (; at_ < r_.end; at_ = next_) in_layers();
     part_headers(r_, changed_, print_, words_);
     finish();
+    r_.states = std::move(states_).all();
     return std::move(r_);
   }
 
@@ -71,22 +61,13 @@ class Recovery {
     if (const auto fault = parse_line(raw_, line_)) refuse(at_, std::string(*fault));
   }
 
-  /// As the file leaves it so far.
-  std::uint32_t state_index() {
-    if (!std::exchange(state_changed_, false)) return state_index_;
-    const auto [found, is_new] = index_of_state_.try_emplace(state_, std::uint32_t(r_.states.size()));
-    if (is_new) r_.states.push_back(state_);
-    return state_index_ = found->second;
-  }
-
   void take_state(const ModalLine& what) {
-    take(state_, what, raw_);
-    if (state_.size() > most_settings)
+    states_.take(what, raw_);
+    if (states_.size() > most_settings)
       refuse(at_,
              fmt::format("'{}': more than {} things are set by lines like this; take it out of the slicer's custom "
                          "G-code",
                          shown(trimmed(raw_)), most_settings));
-    state_changed_ = true;
   }
 
   /// Index of the move that the line makes; nothing where it makes none.
@@ -100,36 +81,8 @@ class Recovery {
   }
 
   void count_e() {
-    const bool sets = line_.letter == 'G' && line_.number == 92;
-    const bool moves = line_.letter == 'G' && line_.number <= 1;
-    const auto counts = [&](char letter, int tool) {
-      if (line_.has_value(letter) && (sets || (moves && !r_.relative_e))) count_e5(tool) = to_e5(line_[letter]);
-    };
-    counts('E', tool_);
-    if (r_.e_of_each_tool) counts('A', 0), counts('B', 1);
-    if (moves && line_.has_value('F')) feed_ = line_['F'];
-  }
-  std::int64_t& count_e5(int tool) { return count_e5_[r_.e_of_each_tool ? std::size_t(tool) : 0]; }
-
-  void move_filament(const GcodeMove& move) {
-    std::int64_t& back = drawn_back_e5_[move.feeds];
-    back = std::max<std::int64_t>(0, back - to_e5(move.filament_mm));
-  }
-
-  /// What a tool pushes forward before its first road, beyond what it has drawn back, it was taken to be drawn back by.
-  void take_first_pushes() {
-    std::vector<char> has_printed(drawn_back_e5_.size(), 0);
-    std::vector<std::int64_t> back_e5 = drawn_back_e5_;
-    for (std::size_t i = move_; i < print_.moves.size(); ++i) {
-      const GcodeMove& move = print_.moves[i];
-      if (has_printed[move.feeds] != 0) continue;
-      if (lays_plastic(print_, i)) {
-        has_printed[move.feeds] = 1;
-        drawn_back_e5_[move.feeds] += std::max<std::int64_t>(0, -back_e5[move.feeds]);
-      } else {
-        back_e5[move.feeds] -= to_e5(move.filament_mm);
-      }
-    }
+    book_.count(line_, tool_, r_.relative_e);
+    if (line_.letter == 'G' && line_.number <= 1 && line_.has_value('F')) feed_ = line_['F'];
   }
 
   void before_layers() {
@@ -138,7 +91,7 @@ class Recovery {
     count_e();
     if (const auto tool = tool_taken(line_); tool && *tool >= 0 && *tool < max_tools) tool_ = *tool;
     if (const auto what = modal_line(line_)) take_state(*what);
-    while (move_ < print_.moves.size() && print_.moves[move_].offset < next_) move_filament(print_.moves[move_++]);
+    while (move_ < print_.moves.size() && print_.moves[move_].offset < next_) book_.move(print_.moves[move_++]);
   }
 
   void begin_layers() {
@@ -152,12 +105,12 @@ class Recovery {
     if (print_.facts.dialect == Dialect::slic3r)
       for (const auto& [key, line] :
            {std::pair(type_key, ";TYPE:Unknown"), {width_key, ";WIDTH:0"}, {height_key, ";HEIGHT:0"}})
-        state_.try_emplace(std::string(key), line);
-    r_.begin_state = state_index();
-    state_changed_ = state_.try_emplace("fan", "M107").second;
-    if (words_.begins_drawn_back) take_first_pushes();
-    r_.begin_drawn_back_e5 = drawn_back_e5_;
-    r_.begin_count_e5 = count_e5_;
+        states_.set_first(key, line);
+    r_.begin_state = states_.index();
+    states_.set_first("fan", "M107");
+    if (words_.begins_drawn_back) book_.take_first_pushes(print_, move_);
+    book_.begin_layers();
+    r_.begin_count_e5 = book_.counts();
     breaks_ = true;
   }
 
@@ -234,16 +187,7 @@ class Recovery {
     const bool heats = line_.letter == 'M' && (line_.number == 104 || line_.number == 109);
     if (words_.times_heaters && (asks || (heats && is_timed(line_.value_or('T', tool_))))) return;
     if (words_.times_heaters && has_tool_ && line_.letter == 'M' && line_.number == 116) return keep(true);
-    if (is_temperature(line_)) {
-      const bool bed = line_.number == 140 || line_.number == 190;
-      if (!bed && !line_.has_value('T') && print_.tools > 1)
-        refuse(at_, "a temperature without a tool (T) among the layers: it would reach another one");
-    } else if (!is_harmless(line_) || line_.number == 600 || line_.number == 601 || line_.number == 25 ||
-               (line_.letter == 'M' && line_.number <= 1)) {
-      refuse(at_, fmt::format("'{}' among the layers: it cannot be moved, nor left where it is; take it out of the "
-                              "slicer's custom G-code",
-                              shown(trimmed(raw_))));
-    }
+    if (const auto fault = fault_of_command(line_, raw_, print_.tools)) refuse(at_, *fault);
     keep(true);
   }
 
@@ -270,17 +214,8 @@ class Recovery {
   }
 
   void command_g() {
-    const int g = line_.number;
-    if (g == 92) {
-      if (line_.has('X') || line_.has('Y') || line_.has('Z')) refuse(at_, "G92 moves the origin among the layers");
-      return;
-    }
-    if (g == 2 || g == 3) refuse(at_, "arcs are not re-planned yet; switch off arc fitting in the slicer");
-    if (g == 10 || g == 11)
-      refuse(at_, "the firmware draws filament back; switch off use_firmware_retraction in the slicer");
-    if (g != 0 && g != 1)
-      refuse(at_, fmt::format("'{}' among the layers: it cannot be moved; take it out of the slicer's custom G-code",
-                              shown(trimmed(raw_))));
+    if (const auto fault = fault_of_g(line_, raw_)) refuse(at_, *fault);
+    if (line_.number == 92) return;
     const auto index = take_move();
     if (!index) return;  // a speed alone
     const GcodeMove& move = print_.moves[*index];
@@ -304,14 +239,14 @@ class Recovery {
     if (move.to_mm.z != from.z && !rises_after_) rises_after_ = way_.size();
     if (!r_.layers.empty()) rise_mm_ = std::max(rise_mm_, move.to_mm.z - r_.layers.back().z_mm);
     if (move.filament_mm > 0) {
-      const std::int64_t beyond = to_e5(move.filament_mm) - drawn_back_e5_[move.feeds];
-      if (beyond > rounding_e5) refuse(at_, "plastic is pushed out on the spot, more than was drawn back");
+      const std::int64_t beyond = to_e5(move.filament_mm) - book_.back_of(move.feeds);
+      if (beyond > filament_rounding_e5) refuse(at_, "plastic is pushed out on the spot, more than was drawn back");
     }
     if (move.filament_mm < 0 && !drawn_back_) drawn_back_ = true, back_after_ = way_.size();
     if (line_.has('A') || line_.has('B') || move.feeds != move.tool)
       refuse(at_, "filament of another tool than the one in use is moved");
-    move_filament(move);
-    if (move.filament_mm > 0 && !forward_after_ && drawn_back_e5_[move.feeds] <= rounding_e5)
+    book_.move(move);
+    if (move.filament_mm > 0 && !forward_after_ && book_.back_of(move.feeds) <= filament_rounding_e5)
       forward_after_ = way_.size();
     if (across) way_.push_back({to_um(move.to_mm.x), to_um(move.to_mm.y)});
   }
@@ -322,14 +257,14 @@ class Recovery {
     if (!follows || move.feeds != move.tool) refuse(at_, "filament is drawn back on the way, but not after a road");
     if (run().wipe.empty()) {
       run().wipe_from = std::move(way_);
-      const std::int64_t back = drawn_back_e5_[move.feeds];
-      run().back_before_wipe_e5 = back > rounding_e5 ? back : 0;
+      const std::int64_t back = book_.back_of(move.feeds);
+      run().back_before_wipe_e5 = back > filament_rounding_e5 ? back : 0;
     } else if (!way_.empty()) {
       refuse(at_, "filament is drawn back on the way, but not after a road");
     }
     way_.clear();
     run().wipe.push_back({{to_um(move.to_mm.x), to_um(move.to_mm.y)}, -to_e5(move.filament_mm), feed_});
-    move_filament(move);
+    book_.move(move);
     drawn_back_ = true;
     back_after_ = 0;
   }
@@ -355,9 +290,9 @@ class Recovery {
       last = i;
     }
     if (last == 0) return comment();  // it says so, and lays none
-    if (drawn_back_e5_[std::size_t(tool_)] > rounding_e5)
+    if (book_.back_of(tool_) > filament_rounding_e5)
       refuse(at_, "a wipe tower that begins while filament is drawn back");
-    FixedLines fixed{.lines = {}, .lays = true, .state = state_index(), .drawn_back_e5 = drawn_back_e5_};
+    FixedLines fixed{.lines = {}, .lays = true, .state = states_.index(), .drawn_back_e5 = book_.back()};
     close_gap(from);
     const std::size_t end = behind_wipe(text_, line_end(text_, print_.moves[last].offset));
     for (;; at_ = next_) {
@@ -368,11 +303,11 @@ class Recovery {
       if (const auto what = modal_line(line_); what && line_.number != 220) take_state(*what);
       if (const auto tool = tool_taken(line_)) tool_ = known_tool(*tool);
       for (; move_ < print_.moves.size() && print_.moves[move_].offset < next_; ++move_)
-        move_filament(print_.moves[move_]);
+        book_.move(print_.moves[move_]);
       if (next_ >= end) break;
     }
-    for (std::size_t t = 0; t < drawn_back_e5_.size(); ++t)
-      fixed.drawn_back_e5[t] = drawn_back_e5_[t] - fixed.drawn_back_e5[t];
+    for (std::size_t t = 0; t < book_.back().size(); ++t)
+      fixed.drawn_back_e5[t] = book_.back()[t] - fixed.drawn_back_e5[t];
     const Vec3 to = print_.moves[move_ - 1].to_mm;
     fixed.tool_after = tool_;
     fixed.to = {to_um(to.x), to_um(to.y)};
@@ -381,7 +316,8 @@ class Recovery {
   }
 
   void lay(std::size_t index, const GcodeMove& move, Vec3 from) {
-    require_known_road(move, from);
+    if (const auto fault = fault_of_road(move, from, tool_, words_)) refuse(at_, *fault);
+    if (move.role == Role::wipe_tower) r_.keeps_tools = true;
     require_pushed_forward();
     if (breaks_) close_gap(from);
     if (r_.layers.empty()) refuse(at_, "a road before the first layer");
@@ -390,12 +326,8 @@ class Recovery {
       run().notes.emplace_back(note.text);
     }
     gap_.clear();
-    if (says_roles_behind_) {
-      const std::string type = fmt::format(";TYPE:{}", role_name(move.role));
-      state_changed_ = state_changed_ || state_[std::string(type_key)] != type;
-      state_[std::string(type_key)] = type;
-    }
-    const std::uint32_t state = state_index();
+    if (says_roles_behind_) states_.set(type_key, fmt::format(";TYPE:{}", role_name(move.role)));
+    const std::uint32_t state = states_.index();
     run().roads.push_back({.to = {to_um(move.to_mm.x), to_um(move.to_mm.y)},
                            .filament_e5 = to_e5(move.filament_mm),
                            .feed_mm_min = feed_,
@@ -403,45 +335,12 @@ class Recovery {
                            .move = std::uint32_t(index)});
   }
 
-  void require_known_road(const GcodeMove& move, Vec3 from) {
-    if (std::abs(from.z - move.to_mm.z) > same_height_mm)
-      refuse(at_, "a road that rises (vase mode) is not re-planned");
-    if (move.tool != move.feeds || move.tool != tool_) refuse(at_, "a road of another tool than the one in use");
-    switch (move.role) {
-      case Role::wipe_tower:
-        if (!words_.tower_is_roads) refuse(at_, "a road of the wipe tower outside of it");
-        r_.keeps_tools = true;
-        return;
-      case Role::support:
-      case Role::support_interface:
-        refuse(at_, "prints with supports are not re-planned yet");
-      case Role::ironing:
-        refuse(at_, "ironing is not re-planned yet; switch it off in the slicer");
-      case Role::custom:
-        refuse(at_, "a road of custom G-code among the layers cannot be moved");
-      case Role::unknown:
-        refuse(at_, "the file does not say what this road is (;TYPE:)");
-      default:
-        return;
-    }
-  }
-
-  /// What start code leaves drawn back for good is none of what the layers draw back.
   void require_pushed_forward() {
-    const auto tool = std::size_t(tool_);
-    std::int64_t& back = drawn_back_e5_[tool];
-    if (!has_laid_[tool]) {
-      const std::int64_t left = std::min(back, r_.begin_drawn_back_e5[tool]);
-      r_.begin_drawn_back_e5[tool] -= left;
-      back -= left;
-      has_laid_[tool] = true;
-    }
-    if (back > rounding_e5)
+    if (const std::int64_t back = book_.begin_road(tool_); back > filament_rounding_e5)
       refuse(at_, fmt::format("a road while {:g} mm of filament are drawn back: less is pushed forward than was drawn "
                               "back; set the extra length on restart (retract_restart_extra; Cura: "
                               "retraction_extra_prime_amount) to 0 in the slicer",
                               double(back) * 1e-5));
-    back = 0;
   }
 
   RecoveredRun& run() { return r_.layers.back().runs.back(); }
@@ -509,7 +408,7 @@ class Recovery {
   /// The change of tools as a stop on the way: where it stands, and its lines.
   void stand_aside(const std::vector<std::string>& leave, const std::vector<std::string>& enter) {
     FixedLines fixed{
-        .lines = leave, .tool_at = leave.size(), .tool_after = tool_, .to = *stand_, .state = state_index()};
+        .lines = leave, .tool_at = leave.size(), .tool_after = tool_, .to = *stand_, .state = states_.index()};
     fixed.lines.insert(fixed.lines.end(), enter.begin(), enter.end());
     RecoveredRun stop;
     stop.tool = from_tool_;
@@ -547,16 +446,12 @@ class Recovery {
   void finish() {
     leave_run();
     r_.end_tool = tool_;
-    r_.end_state = state_index();
-    r_.end_count_e5 = count_e5(tool_);
-    r_.end_drawn_back_e5 = drawn_back_e5_[std::size_t(tool_)];
+    r_.end_state = states_.index();
+    r_.end_count_e5 = book_.count_of(tool_);
+    r_.end_drawn_back_e5 = book_.back_of(tool_);
+    r_.begin_drawn_back_e5 = book_.begin_back();
     r_.end_feed_mm_min = feed_;
-    for (std::size_t k = 1; k < r_.layers.size(); ++k)
-      if (r_.layers[k].z_mm <= r_.layers[k - 1].z_mm + same_height_mm)
-        throw Error(
-            fmt::format("{}: layer {} is no higher than the one before: objects that are printed one after the "
-                        "other are not re-planned",
-                        print_.name, k + 1));
+    require_rising(r_, print_);
   }
 
   const GcodePrint& print_;
@@ -568,15 +463,10 @@ class Recovery {
   std::string_view raw_;
   GcodeLine line_;
 
-  ModalState state_;
-  bool state_changed_ = true;
-  std::uint32_t state_index_ = 0;
-  std::map<ModalState, std::uint32_t> index_of_state_;
+  StateLog states_;
   int tool_ = 0, from_tool_ = 0;
   double feed_ = 0;
-  std::vector<std::int64_t> count_e5_ = std::vector<std::int64_t>(max_tools, 0);
-  std::vector<std::int64_t> drawn_back_e5_;
-  std::array<bool, max_tools> has_laid_{};  // a road among the layers
+  FilamentBook book_{max_tools, false};
   std::array<bool, max_tools> is_timed_{};  // its heater, where the dialect times them: it prints among the layers
 
   // Since the last road:
