@@ -236,6 +236,16 @@ Box<Vec2> bounds_mm(const Polygons& region) {
   return box;
 }
 
+double border_distance_mm(const Polygons& region, Vec2 p_mm) {
+  double least = INFINITY;
+  for (const Ring& ring : region)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 q = nearest_on_segment(to_mm(ring[i]), to_mm(ring[(i + 1) % ring.size()]), p_mm);
+      least = std::min(least, length_squared(p_mm - q));
+    }
+  return std::sqrt(least);
+}
+
 bool contains(const Polygons& region, Point p) {
   // Outlines count up, holes count down: inside where they do not cancel.
   int depth = 0;

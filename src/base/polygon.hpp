@@ -77,6 +77,9 @@ double length_mm(const Polygons& region);
 Box<Vec2> bounds_mm(const Polygons& region);
 bool contains(const Polygons& region, Point p);  // the border counts as inside
 
+/// From p to the nearest place on the rings, inside or out; infinite where there are none.  Cost: all edges.
+double border_distance_mm(const Polygons& region, Vec2 p_mm);
+
 Polygons rectangle(Vec2 min_mm, Vec2 max_mm);
 Ring convex_hull(const Polygons& region);
 

@@ -83,10 +83,14 @@ std::optional<Attempt> Attempts::best() const {
   const bool had_rampart = best.has_rampart, stands_apart = best.stands_apart;
   for (const RampartExtent extent : others) {
     if (extent == RampartExtent::column && !stands_apart) continue;
-    Attempt other = with(extent);
-    other.cleanness = judged(other.print);
-    if (print_cost(other.cleanness, before, config_) < print_cost(best.cleanness, before, config_))
-      best = std::move(other);
+    try {
+      Attempt other = with(extent);
+      other.cleanness = judged(other.print);
+      if (print_cost(other.cleanness, before, config_) < print_cost(best.cleanness, before, config_))
+        best = std::move(other);
+    } catch (const Error&) {  // the first one is good all the same
+      if (progress_.interrupted()) throw;
+    }
   }
   if (!is_worth_it(best.cleanness, before, config_)) return std::nullopt;
   if (had_rampart && !best.has_rampart)

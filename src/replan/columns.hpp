@@ -14,7 +14,7 @@
 
 namespace cleancolor {
 
-/// Their boxes.
+/// The box of each column in plan view, mm, in no order: what is closer than that to each other is one.
 std::vector<Box<Vec2>> columns(const Slices& slices, double apart_mm);
 
 /// The same slices with the outlines of one column alone: of those that go up to the last layer the one with the

@@ -17,6 +17,10 @@ bool begins_with_one_of(std::string_view line, const std::array<std::string_view
   return std::ranges::any_of(prefixes, [&](std::string_view p) { return !p.empty() && line.starts_with(p); });
 }
 
+bool is_set(std::string_view value) {
+  return !value.empty() && value.find_first_not_of("0.,%") != value.npos;
+}
+
 FileHabits habits_of_file(const GcodePrint& print) {
   FileHabits habits;
   for (const IniEntry& entry : print.facts.config) {

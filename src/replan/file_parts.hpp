@@ -22,6 +22,9 @@ namespace cleancolor {
 /// Whether it begins with one of them; empty ones are none.
 bool begins_with_one_of(std::string_view line, const std::array<std::string_view, 2>& prefixes);
 
+/// Of an option in the configuration of a file: whether it is more than nothing.
+bool is_set(std::string_view value);
+
 struct FileHabits {
   bool e_of_each_tool = false;     // as in RecoveredPrint
   bool says_on_and_off = false;    // likewise

@@ -10,6 +10,7 @@
 #include "model/text_scan.hpp"
 #include "printed/regions.hpp"
 #include "replan/closed_runs.hpp"
+#include "replan/file_parts.hpp"
 
 namespace cleancolor {
 namespace {
@@ -32,10 +33,6 @@ std::string_view value_of(const GcodePrint& print, std::string_view key) {
   for (const IniEntry& entry : print.facts.config)
     if (entry.key == key) return entry.value;
   return {};
-}
-
-bool is_set(std::string_view value) {
-  return !value.empty() && value.find_first_not_of("0.,%") != value.npos;
 }
 
 std::vector<std::vector<Run>> runs_by_layer(const GcodePrint& print, const AuditMachine& machine, std::size_t begin) {
@@ -70,33 +67,26 @@ Box<Vec2> box_of(const Run& run) {
 
 /// How many of the first runs are loops around all that follow.
 std::size_t skirts(const std::vector<Run>& runs) {
+  std::vector<Box<Vec2>> rest(runs.size() + 1);  // of the runs from there on
+  for (std::size_t i = runs.size(); i-- > 0;) {
+    rest[i] = rest[i + 1];
+    for (const Vec2 p : runs[i].points) rest[i].add(p);
+  }
   std::size_t count = 0;
   for (; count + 1 < runs.size() && runs[count].closed; ++count) {
-    const Box<Vec2> own = box_of(runs[count]);
-    Box<Vec2> rest;
-    for (std::size_t i = count + 1; i < runs.size(); ++i)
-      for (const Vec2 p : runs[i].points) rest.add(p);
+    const Box<Vec2> own = box_of(runs[count]), inner = rest[count + 1];
     const double room =
-        std::min({rest.min.x - own.min.x, rest.min.y - own.min.y, own.max.x - rest.max.x, own.max.y - rest.max.y});
+        std::min({inner.min.x - own.min.x, inner.min.y - own.min.y, own.max.x - inner.max.x, own.max.y - inner.max.y});
     if (room < skirt_room_mm) break;
   }
   return count;
-}
-
-double distance_to_border(const Polygons& region, Vec2 p) {
-  double least = INFINITY;
-  for (const Ring& ring : region)
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      least = std::min(least,
-                       length_squared(nearest_on_segment(to_mm(ring[i]), to_mm(ring[(i + 1) % ring.size()]), p) - p));
-  return std::sqrt(least);
 }
 
 bool is_outer(const Run& run, const Polygons& region) {
   std::vector<double> depths;
   const std::size_t step = std::max<std::size_t>(1, run.points.size() / samples);
   for (std::size_t i = 0; i + 1 < run.points.size(); i += step)
-    depths.push_back(distance_to_border(region, lerp(run.points[i], run.points[i + 1], 0.5)));
+    depths.push_back(border_distance_mm(region, lerp(run.points[i], run.points[i + 1], 0.5)));
   std::ranges::nth_element(depths, depths.begin() + std::ptrdiff_t(depths.size() / 2));
   return depths[depths.size() / 2] < outer_widths * run.width_mm;
 }

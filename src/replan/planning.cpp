@@ -20,6 +20,7 @@
 #include "replan/closed_runs.hpp"
 #include "replan/columns.hpp"
 #include "replan/cura.hpp"
+#include "replan/file_parts.hpp"
 #include "replan/kept_shield.hpp"
 #include "replan/leads.hpp"
 #include "replan/staged_layer.hpp"
@@ -49,20 +50,6 @@ constexpr RefusedOption refused_options[] = {
     {"ironing", "ironing is not re-planned yet; switch it off in the slicer"},
 };
 
-bool is_on(std::string_view value) {
-  return value.find_first_not_of("0,") != value.npos;
-}
-
-double distance_to(const Polygons& rings, Vec2 p) {
-  double least = INFINITY;
-  for (const Ring& ring : rings)
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 q = nearest_on_segment(to_mm(ring[i]), to_mm(ring[(i + 1) % ring.size()]), p);
-      least = std::min(least, length_squared(p - q));
-    }
-  return std::sqrt(least);
-}
-
 /// 0 along the border of its zone, 1 the next loop inside, ...
 int depth_of(const Path& path, const Zone* zone) {
   if (!std::ranges::all_of(path.stretches, [](const Stretch& s) { return is_wall(s.road.role); })) return fill_depth;
@@ -72,7 +59,7 @@ int depth_of(const Path& path, const Zone* zone) {
   std::vector<double> depths;
   const std::size_t step = std::max<std::size_t>(1, path.points.size() / depth_samples);
   for (std::size_t i = 0; i < path.points.size(); i += step)
-    depths.push_back(distance_to(zone->region, path.points[i]));
+    depths.push_back(border_distance_mm(zone->region, path.points[i]));
   std::ranges::nth_element(depths, depths.begin() + std::ptrdiff_t(depths.size() / 2));
   const double spacing = road_spacing_mm(path.road().width_mm, path.road().height_mm);
   const double inside = depths[depths.size() / 2] - path.road().width_mm / 2;
@@ -307,10 +294,10 @@ Config told_config(const GcodePrint& print, const Config* printer) {
                     print.name));
   for (const IniEntry& entry : print.facts.config)
     for (const RefusedOption& option : refused_options)
-      if (entry.key == option.key && is_on(entry.value))
+      if (entry.key == option.key && is_set(entry.value))
         throw Error(fmt::format("{}: {} = {}: {}", print.name, entry.key, entry.value, option.reason));
   for (const IniEntry& entry : print.facts.config)
-    if ((entry.key == "retract_lift_above" || entry.key == "retract_lift_below") && is_on(entry.value))
+    if ((entry.key == "retract_lift_above" || entry.key == "retract_lift_below") && is_set(entry.value))
       throw Error(fmt::format("{}: {} = {}: lifting in some layers only is not re-planned yet; switch it off",
                               print.name, entry.key, entry.value));
   std::vector<IniEntry> told = print.facts.config;

@@ -30,16 +30,29 @@ std::map<ToolRole, double> filament_mm(const GcodePrint& print) {
   return sums;
 }
 
-/// Length of road of each tool in each cell of 0.4 mm and layer height, in cells that roads pass through their middles.
+double way_mm(const GcodePrint& print, std::size_t i) {
+  const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+/// 0.4 mm; more where roads are that long that there would be more of them than the text has bytes.
+double cell_size_mm(const GcodePrint& print) {
+  double sum_mm = 0, roads = 0;
+  for (std::size_t i = 1; i < print.moves.size(); ++i)
+    if (lays_plastic(print, i)) sum_mm += way_mm(print, i), ++roads;
+  return 0.4 * std::max(1., sum_mm / (4e5 + 100 * roads));
+}
+
+/// Length of road of each tool in each cell and layer height, in cells that roads pass through their middles.
 using Cell = std::tuple<int, std::int64_t, std::int64_t, std::int64_t>;
-std::vector<std::pair<Cell, double>> cells(const GcodePrint& print, const std::set<Role>& without) {
-  constexpr double cell_mm = 0.4, step_mm = 0.1;
+std::vector<std::pair<Cell, double>> cells(const GcodePrint& print, const std::set<Role>& without, double cell_mm) {
+  const double step_mm = cell_mm / 4;
   std::vector<std::pair<Cell, double>> all;
   for (std::size_t i = 1; i < print.moves.size(); ++i) {
     if (!lays_plastic(print, i) || !is_kept(print.moves[i])) continue;
     if (without.contains(print.moves[i].role)) continue;
     const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const double length = way_mm(print, i);
     const int steps = int(length / step_mm) + 1;
     for (int s = 0; s < steps; ++s) {
       const double t = (s + 0.5) / steps;
@@ -115,7 +128,8 @@ std::optional<std::string> difference(const GcodePrint& before, const GcodePrint
   }
   for (const auto& [what, mm] : new_mm)
     if (!old_mm.contains(what)) return fmt::format("there is {} that was not there", role_name(what.second));
-  const auto old_cells = cells(before, without), new_cells = cells(after, without);
+  const double cell_mm = cell_size_mm(before);
+  const auto old_cells = cells(before, without, cell_mm), new_cells = cells(after, without, cell_mm);
   const double all = sum_mm(old_cells), lost = beyond_mm(old_cells, new_cells), added = beyond_mm(new_cells, old_cells);
   if (std::max(lost, added) > seam_share * all)
     return fmt::format("{:.1f} mm of road are missing and {:.1f} mm were not there, of {:.0f} mm", lost, added, all);

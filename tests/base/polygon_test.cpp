@@ -84,6 +84,14 @@ TEST(ConvexHull, OfAnLIsItsFiveCorners) {
   EXPECT_NEAR(area_mm2(hull), 100 - 32, 1e-6);
 }
 
+TEST(Polygon, BorderIsAsFarFromInsideAsFromOutside) {
+  const Polygons region = {{to_nm({0, 0}), to_nm({10, 0}), to_nm({10, 10}), to_nm({0, 10})}};
+  EXPECT_NEAR(border_distance_mm(region, {5, 3}), 3, 1e-9);
+  EXPECT_NEAR(border_distance_mm(region, {13, 14}), 5, 1e-9);
+  EXPECT_EQ(border_distance_mm(region, {10, 7}), 0);
+  EXPECT_EQ(border_distance_mm({}, {0, 0}), INFINITY);
+}
+
 TEST(Booleans, OfDisjointBoxesSkipClipperAndStayRight) {
   const Polygons a = square(1), b = rectangle({5, 5}, {6, 6});
   EXPECT_TRUE(intersection(a, b).empty());
