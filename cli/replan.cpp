@@ -58,10 +58,11 @@ std::string comparison(const GcodePrint& before, const GcodePrint& after, const 
 /// One line: what it brings, and what it takes.
 std::string summary(const std::string& target, const Replanned& result) {
   std::string line = target + ": ";
-  if (result.gain)
-    line +=
-        fmt::format("smears {:.1f} instead of {:.1f} mm3, holes {:.1f} instead of {:.1f} mm3, ", result.gain->smear_mm3,
-                    result.gain->old_smear_mm3, result.gain->hole_mm3, result.gain->old_hole_mm3);
+  if (result.gain) {
+    const auto& [before, after] = *result.gain;
+    line += fmt::format("smears {:.1f} instead of {:.1f} mm3, holes {:.1f} instead of {:.1f} mm3, ", after.smear_mm3,
+                        before.smear_mm3, after.hole_mm3, before.hole_mm3);
+  }
   const int digits = result.old_time_s < 6000 ? 1 : 0;
   return line + fmt::format("{:.{}f} min instead of {:.{}f} min, by this program's estimate\n", result.time_s / 60,
                             digits, result.old_time_s / 60, digits);

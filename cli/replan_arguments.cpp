@@ -12,12 +12,10 @@ const char* const replan_description =
     "\n"
     "Every path is printed as it was sliced: its plastic, speed, fan and acceleration. New are the order of the "
     "paths,\n"
-    "where loops begin, the ways between them, and the rampart around the part, where it is worth its time and no\n"
-    "shield or wipe tower stands. So far for files of PrusaSlicer, Slic3r and Cura with several nozzles. What cannot "
-    "be\n"
-    "re-planned for sure is refused, with the reason; the result is read again and compared with the file before it "
-    "is\n"
-    "written.\n"
+    "where loops begin, the ways between them, and the rampart around the part, where it is worth its time and\n"
+    "no shield or wipe tower stands. So far for files of PrusaSlicer, Slic3r and Cura with several nozzles.\n"
+    "What cannot be re-planned for sure is refused, with the reason; the result is read again and compared with\n"
+    "the file before it is written.\n"
     "\n"
     "Where the nozzles are: --nozzle-offset, else --printer, else the file, else a guess that is warned of.\n";
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "audit/timeline.hpp"
+#include "replan/file_parts.hpp"
 
 namespace cleancolor {
 namespace {
@@ -164,7 +165,6 @@ std::string with_heaters(const RecoveredPrint& recovered, const GcodePrint& prin
   const std::size_t first = text.find(fmt::format("\n{}", layer_mark)) + 1;
   const std::vector<double> at_s = begins_s(timeline(after, machine));
   const std::vector<ToolUse> uses = uses_of(after, first);
-  const auto line_behind = [&](std::size_t offset) { return std::min(text.find('\n', offset), text.size() - 1) + 1; };
   const auto move_at = [&](double s) {
     const auto found = std::ranges::lower_bound(at_s, s) - at_s.begin();
     return std::min(std::max(std::size_t(found), uses.front().begin), after.moves.size() - 1);
@@ -185,7 +185,7 @@ std::string with_heaters(const RecoveredPrint& recovered, const GcodePrint& prin
         const std::size_t heats = move_at(at_s[use.begin] - habits.lead_s);
         if (want_c > c && heats < use.begin)
           lines.emplace(after.moves[heats].offset, fmt::format("M104 T{} S{:g}", use.tool, want_c));
-        lines.emplace(line_behind(use.offset), fmt::format("{} S{:g}", want_c > c ? "M109" : "M104", want_c));
+        lines.emplace(line_end(text, use.offset), fmt::format("{} S{:g}", want_c > c ? "M109" : "M104", want_c));
       } else {
         lines.emplace(after.moves[i].offset, fmt::format("M104 S{:g}", want_c));
       }
@@ -201,7 +201,7 @@ std::string with_heaters(const RecoveredPrint& recovered, const GcodePrint& prin
       if (idle_s >= habits.least_cooled_s && idle_s > habits.lead_s + least_idle_s) idle_c = habits.idle_c;
     }
     if (!idle_c) continue;
-    lines.emplace(line_behind(uses[u + 1].offset), fmt::format("M104 T{} S{:g}", use.tool, *idle_c));
+    lines.emplace(line_end(text, uses[u + 1].offset), fmt::format("M104 T{} S{:g}", use.tool, *idle_c));
     c = *idle_c;
   }
   return with_lines(text, lines);

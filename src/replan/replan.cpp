@@ -68,9 +68,7 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   Replanned result;
   result.text = std::move(made->text);
   result.has_rampart = made->has_rampart;
-  if (judges)
-    result.gain =
-        Gain{made->before.smear_mm3, made->cleanness.smear_mm3, made->before.hole_mm3, made->cleanness.hole_mm3};
+  if (judges) result.gain = Gain{made->before, made->cleanness};
   result.removed_mm3 = attempts.removed_mm3();
   result.old_time_s = timeline(print, machine).print_time_s;
   const Timeline time = timeline(made->print, machine);

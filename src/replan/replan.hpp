@@ -16,6 +16,7 @@
 #include "base/progress.hpp"
 #include "model/config.hpp"
 #include "reader/print.hpp"
+#include "replan/worth.hpp"
 
 namespace cleancolor {
 
@@ -31,10 +32,9 @@ struct ReplanRequest {
   int threads = 1;
 };
 
-/// By the worst scenario of the audit, of the file and of what became of it.
+/// By the worst scenario of the audit: of the file, and of what became of it.
 struct Gain {
-  double old_smear_mm3 = 0, smear_mm3 = 0;
-  double old_hole_mm3 = 0, hole_mm3 = 0;
+  Cleanness before, after;
 };
 
 struct Replanned {
