@@ -1,6 +1,7 @@
 #include "replan/columns.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 namespace cleancolor {
@@ -33,6 +34,15 @@ std::size_t column_of(const Ring& ring, const std::vector<Box<Vec2>>& boxes) {
   return std::size_t(std::ranges::find_if(boxes, holds) - boxes.begin());
 }
 
+Slices with_rings(Slices slices, const std::function<bool(const Ring&)>& keeps) {
+  for (PackedPolygons& outline : slices.outlines) {
+    Polygons rings = outline;
+    std::erase_if(rings, std::not_fn(keeps));
+    outline = rings;
+  }
+  return slices;
+}
+
 }  // namespace
 
 std::vector<Box<Vec2>> columns(const Slices& slices, double apart_mm) {
@@ -59,13 +69,15 @@ std::optional<Slices> shortest_column(const Slices& slices, double apart_mm) {
   for (std::size_t i = 0; i < boxes.size(); ++i)
     if (goes_up[i] != 0 && (best == boxes.size() || around[i] < around[best])) best = i;
   if (best == boxes.size()) return std::nullopt;
-  Slices column = slices;
-  for (PackedPolygons& outline : column.outlines) {
-    Polygons rings = outline;
-    std::erase_if(rings, [&](const Ring& ring) { return column_of(ring, boxes) != best; });
-    outline = rings;
-  }
-  return column;
+  return with_rings(slices, [&](const Ring& ring) { return column_of(ring, boxes) == best; });
+}
+
+Slices without_columns_beside(const Slices& slices, const Slices& part, double apart_mm) {
+  const std::vector<Box<Vec2>> boxes = columns(slices, apart_mm);
+  std::vector<char> holds_part(boxes.size(), 0);
+  for (const Polygons outline : part.outlines)
+    for (const Ring& ring : outline) holds_part[column_of(ring, boxes)] = 1;
+  return with_rings(slices, [&](const Ring& ring) { return holds_part[column_of(ring, boxes)] != 0; });
 }
 
 }  // namespace cleancolor

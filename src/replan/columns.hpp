@@ -21,4 +21,8 @@ std::vector<Box<Vec2>> columns(const Slices& slices, double apart_mm);
 /// shortest outlines. Nothing where all is one column, or none goes up so far. Regions stay those of the whole print.
 std::optional<Slices> shortest_column(const Slices& slices, double apart_mm);
 
+/// The same slices without the outlines of columns in which none of the part's ever is, as a wipe tower's.
+/// Requires: the part's outlines lie in those of the slices.
+Slices without_columns_beside(const Slices& slices, const Slices& part, double apart_mm);
+
 }  // namespace cleancolor

@@ -189,8 +189,16 @@ void limit_speeds(std::vector<Path>& paths, const Config& config) {
   }
 }
 
-Layer with_walls(Layer layer, const PrintedRampart& rampart, const Config& config) {
+/// No wall brings a change of tools of its own.
+void by_tools_of(const RecoveredLayer& layer, std::vector<Path>& walls) {
+  for (Path& wall : walls)
+    if (std::ranges::find(layer.runs, wall.extruder, &RecoveredRun::tool) == layer.runs.end())
+      wall.extruder = layer.runs.front().tool;
+}
+
+Layer with_walls(Layer layer, const PrintedRampart& rampart, const RecoveredPrint& recovered, const Config& config) {
   std::vector<Path> paths = rampart.paths(layer.index);
+  if (recovered.keeps_tools) by_tools_of(recovered.layers[std::size_t(layer.index)], paths);
   limit_speeds(paths, config);
   std::ranges::move(layer.paths, std::back_inserter(paths));
   layer.paths = std::move(paths);
@@ -269,7 +277,7 @@ std::vector<Layer> in_plain_order(Scene& scene, const PrintedRampart& rampart, c
   OrderState state{.extruder = recovered.layers.front().runs.front().tool, .at = {}, .seams = {}};
   for (Layer& layer : scene.layers) {
     const std::vector<Stop>& stops = scene.stops[std::size_t(layer.index)];
-    std::vector<Layer> parts = parts_of(with_walls(std::move(layer), rampart, config), stops);
+    std::vector<Layer> parts = parts_of(with_walls(std::move(layer), rampart, recovered, config), stops);
     layer = parts.front();
     layer.paths.clear();
     for (Layer& part : parts) {
@@ -378,14 +386,14 @@ ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint
       }
     return {std::move(scene.layers)};
   }
-  const auto has_tower = [](const std::vector<Stop>& stops) { return std::ranges::any_of(stops, &Stop::lays); };
-  if (scene.has_shield || std::ranges::any_of(scene.stops, has_tower)) config.rampart = RampartShape::off;
   const Use use(scene.slices);
   if (use.extruders.size() < 2)
     throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));
-  const bool stands_apart = columns(scene.around, columns_apart_mm(config)).size() > 1;
+  const double apart_mm = columns_apart_mm(config);
+  scene.around = without_columns_beside(scene.around, scene.slices, apart_mm);
+  const bool stands_apart = columns(scene.around, apart_mm).size() > 1;
   std::optional<Slices> column;
-  if (options.rampart == RampartExtent::column) column = shortest_column(scene.around, columns_apart_mm(config));
+  if (options.rampart == RampartExtent::column) column = shortest_column(scene.around, apart_mm);
   if (column) scene.around = std::move(*column);
   if (options.rampart != RampartExtent::all && !column) config.rampart = RampartShape::off;
   std::optional<PrintedRampart> rampart;
@@ -415,7 +423,7 @@ ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint
   const int walled = walled_layers(scene.layers, leads.ooze);
   const auto plan = [&](int k) {
     Layer layer = std::move(scene.layers[std::size_t(k)]);
-    if (k < walled) layer = with_walls(std::move(layer), *rampart, config);
+    if (k < walled) layer = with_walls(std::move(layer), *rampart, recovered, config);
     PlanScene around = plan_scene(scene.slices, use, config, *rampart, k);
     if (k >= walled) around.site = {};
     if (!around.site.part.empty()) around.site.part = scene.slices.outlines[std::size_t(k)];

@@ -2,20 +2,47 @@
 
 #include <algorithm>
 #include <iterator>
+#include <ranges>
 #include <utility>
 
 namespace cleancolor {
 
+namespace {
+
+bool is_stop(const Path& path, const std::vector<Stop>& stops) {
+  return std::ranges::find(stops, path.source, &Stop::source) != stops.end();
+}
+
+/// Each before the first paths of its extruder.
+void add_walls(std::vector<Path> walls, std::vector<Layer>& parts, const std::vector<Stop>& stops) {
+  for (Path& wall : std::views::reverse(walls)) {
+    const auto is_own = [&](const Layer& part) {
+      return part.paths.front().extruder == wall.extruder && !is_stop(part.paths.front(), stops);
+    };
+    const auto part = std::ranges::find_if(parts, is_own);
+    std::vector<Path>& paths = (part == parts.end() ? parts.front() : *part).paths;
+    paths.insert(paths.begin(), std::move(wall));
+  }
+}
+
+}  // namespace
+
 std::vector<Layer> parts_of(Layer layer, const std::vector<Stop>& stops) {
   std::vector<Path> paths = std::exchange(layer.paths, {});
+  std::vector<Path> walls;
   std::vector<Layer> parts;
   bool begins = true;
   for (Path& path : paths) {
-    const bool stops_here = std::ranges::find(stops, path.source, &Stop::source) != stops.end();
+    if (!stops.empty() && path.source < 0) {
+      walls.push_back(std::move(path));
+      continue;
+    }
+    const bool stops_here = is_stop(path, stops);
     if (begins || stops_here) parts.push_back(layer);
     parts.back().paths.push_back(std::move(path));
     begins = stops_here;
   }
+  add_walls(std::move(walls), parts, stops);
   return parts;
 }
 
@@ -27,7 +54,8 @@ StagedLayer::StagedLayer(Layer layer, int first, const std::vector<Stop>& stops,
       continue;
     }
     const auto path = std::ranges::find(layer.paths, stop.source, &Path::source);
-    if (path == layer.paths.begin()) first = stop.leaving.extruder;
+    const bool begins = std::ranges::all_of(layer.paths.begin(), path, [](const Path& p) { return p.source < 0; });
+    if (begins) first = stop.leaving.extruder;
     asides_.push_back({.stop = std::move(*path), .leaving = stop.leaving, .travel = {}});
     layer.paths.erase(path);
   }

@@ -88,7 +88,7 @@ TEST(ReplanCura, WarnsThatTheBedIsTakenForGranted) {
 
 TEST(ReplanCura, DoesNotWarnOfTheBedWhereNoRampartIsAdded) {
   Warned warned;
-  cura_replanned(cura_tower(), {}, warned.progress);
+  cura_replanned(cura_tower(), {.protection = ReplanProtection::none}, warned.progress);
   EXPECT_TRUE(warned.warnings.empty());
 }
 

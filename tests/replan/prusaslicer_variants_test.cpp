@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(All, ReplanAgainstOoze,
                          testing::Values("shield", "ooze", "tower", "wipe", "sailfish", "makerware"),
                          [](const testing::TestParamInfo<const char*>& of) { return std::string(of.param); });
 
-TEST(ReplanShield, IsKeptInsteadOfARampartAndPrintedFirst) {
+TEST(ReplanShield, IsKeptAndPrintedFirstWhereARampartCostsMore) {
   const GcodePrint print = read_gcode(replanned_text(variant("shield")).text, "");
   EXPECT_EQ(print.text->find(";RAMPART_WALL"), std::string::npos);
   std::map<std::uint32_t, Role> first;  // of each layer
@@ -65,6 +65,22 @@ TEST(ReplanShield, IsKeptInsteadOfARampartAndPrintedFirst) {
     if (lays_plastic(print, i)) first.try_emplace(print.moves[i].layer, print.moves[i].role);
   ASSERT_EQ(first.size(), 6u);
   for (const auto& [layer, role] : first) EXPECT_EQ(role, Role::skirt_brim) << layer;
+}
+
+TEST(ReplanShield, StandsInsideTheRampart) {
+  const std::string out = replanned_text(variant("shield"), {.protection = ReplanProtection::rampart}).text;
+  const GcodePrint print = read_gcode(out, "");
+  Box<Vec2> shield, rampart;
+  for (std::size_t i = 1; i < print.moves.size(); ++i) {
+    if (!lays_plastic(print, i) || print.moves[i].layer > 4) continue;
+    const Role role = print.moves[i].role;
+    const Vec3 at = print.moves[i].to_mm;
+    if (role == Role::skirt_brim) shield.add({at.x, at.y});
+    if (role == Role::rampart) rampart.add({at.x, at.y});
+  }
+  ASSERT_FALSE(rampart.empty());
+  EXPECT_LT(rampart.min.y, shield.min.y);
+  EXPECT_GT(rampart.max.y, shield.max.y);
 }
 
 TEST(ReplanShield, IsRemovedOnRequestAndItsPlasticTold) {
@@ -124,6 +140,15 @@ TEST(ReplanTower, StaysToTheLetter) {
   EXPECT_EQ(tower(text), tower(out));
   for (const char* line : {"T", "M220", "G4 ", "M900"}) EXPECT_EQ(lines_that(text, {line}), lines_that(out, {line}));
   EXPECT_EQ(out.find(";RAMPART_WALL"), out.npos);
+}
+
+TEST(ReplanTower, StandsBesideTheRampartWithItsChangesOfToolsAlone) {
+  const std::string text = variant("tower");
+  for (const auto protection : {ReplanProtection::rampart, ReplanProtection::none}) {
+    const std::string out = replanned_text(text, {.protection = protection}).text;
+    EXPECT_EQ(lines_that(text, {"T0", "T1"}), lines_that(out, {"T0", "T1"}));
+    EXPECT_EQ(out.find(";RAMPART_WALL") != out.npos, protection == ReplanProtection::rampart);
+  }
 }
 
 TEST(ReplanTower, IsRemovedOnRequestAndItsPlasticTold) {

@@ -18,6 +18,16 @@ TEST(Worth, NothingIsHandedOutThatSmearsOrLacksMoreThanTheFile) {
   EXPECT_FALSE(is_worth_it({5.5, 0, 900}, {5, 0, 1000}, usual));
 }
 
+TEST(Worth, HolesWeighAsMuchAsInTheCost) {
+  EXPECT_TRUE(is_worth_it({5.5, 0, 1000}, {5, 0.5, 1000}, usual));
+  EXPECT_FALSE(is_worth_it({4.5, 0.5, 900}, {5, 0, 1000}, usual));
+}
+
+TEST(Worth, ATenthCleanerMayTakeLessThanATenthLonger) {
+  EXPECT_TRUE(is_worth_it({9, 0, 8400}, {10, 0, 8000}, usual));
+  EXPECT_FALSE(is_worth_it({9, 0, 8900}, {10, 0, 8000}, usual));
+}
+
 TEST(Worth, NothingIsHandedOutThatTakesLongForNothing) {
   EXPECT_FALSE(is_worth_it({0, 0, 1100}, {0.01, 0.01, 1000}, usual));
   EXPECT_FALSE(is_worth_it({0, 0.5, 3000}, {0, 1, 1000}, usual));
@@ -66,6 +76,15 @@ TEST(Columns, TheShortestIsOneThatGoesUpAllTheWay) {
   for (const PackedPolygons& outline : found->outlines) EXPECT_EQ(Polygons(outline), Polygons{box_ring(20, 0, 8)});
   EXPECT_EQ(found->regions, slices.regions);
   EXPECT_FALSE(shortest_column(towers({{box_ring(0, 0, 10)}}), 3));
+}
+
+TEST(Columns, ATowerBesideThePartIsLeftOutUnlessItIsNear) {
+  const Polygons part{box_ring(0, 0, 10)}, tower{box_ring(20, 0, 8)};
+  const Slices both = towers({{part[0], tower[0]}, {tower[0]}}), alone = towers({part, {}});
+  const Slices without = without_columns_beside(both, alone, 3);
+  EXPECT_EQ(Polygons(without.outlines[0]), part);
+  EXPECT_TRUE(Polygons(without.outlines[1]).empty());
+  EXPECT_EQ(without_columns_beside(both, alone, 15).outlines, both.outlines);
 }
 
 }  // namespace
