@@ -25,6 +25,14 @@ SLICERS = {"prusa": "PrusaSlicer", "slic3r": "Slic3r", "cura": "CuraEngine"}
 SMEAR, LITTLE_SMEAR_MM3, HOLES, TIME = 1 / 8, 0.2, 1 / 4, 1.30
 WORSE, HOLE_WEIGHT = 1.02, 4  # of any file, and 0.05 mm3: what docs/replan.md lets pass
 FILAMENT = 1e-4  # of each nozzle and type of road
+GLOBE = "two-color-world-50mm"
+AGAINST_OOZE = [  # slicer, variant, the option that removes it
+    ("draft shield", "prusa", "shield", "--remove-shield"),
+    ("standby temperatures and shield", "prusa", "ooze", "--remove-shield"),
+    ("wipe tower, 15 mm3 a change", "prusa", "tower", "--remove-tower"),
+    ("Cura's ooze shield", "cura", "shield", "--remove-shield"),
+    ("Cura's prime tower", "cura", "tower", "--remove-tower"),
+]
 AUXILIARY = ("skirt", "brim", "tower", "custom", "wipe")
 NEAR_MM = 0.003  # ends of roads are rounded to 0.001 mm
 SEAM_GAP_MM = 0.3  # that slicers leave where a loop ends: PrusaSlicer 0.06, Cura up to 0.27
@@ -105,13 +113,13 @@ def same_print(before, after):
     return faults
 
 
-def replanned(program, gcode, variant):
-    """The re-planned file and the seconds it took, or the reason why there is none."""
-    output = gcode.with_name(gcode.name.replace(".gcode", ".replanned.gcode"))
+def replanned(program, gcode, variant, *added):
+    """The re-planned file and the seconds it took, or the reason why there is none. added: to the command line."""
+    output = gcode.with_name(gcode.name.replace(".gcode", f".replanned{''.join(added)}.gcode"))
     output.unlink(missing_ok=True)
     begin = time.monotonic()
     done = subprocess.run([program, "replan", gcode, "-o", output, "--nozzle-offset", OFFSETS, "--offsets-in",
-                           "firmware" if "fwoffset" in variant else "slicer", "--quiet"],
+                           "firmware" if "fwoffset" in variant else "slicer", "--quiet", *added],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     seconds = time.monotonic() - begin
     if done.returncode != 0:
@@ -146,12 +154,22 @@ def judged_row(program, name, slicer, variant):
     return row, [f"{title}: {fault}" for fault in faults]
 
 
+def kept_row(program, title, slicer, variant, remove):
+    """One row of the table of what slicers do against ooze: of the globe, kept and removed."""
+    before = sliced(program, GLOBE, slicer, variant)
+    files = [before, *(replanned(program, before, variant, *added)[0] for added in ([], [remove]))]
+    judged = [audited_once(program, file, variant) for file in files]
+    cells = [[figure(j, key) for j in judged] for key in ("smear_volume", "hole_volume")]
+    minutes = " / ".join(f"{j['print']['time_s'] / 60:.0f}" for j in judged)
+    return f"| {title} | " + " | ".join(" / ".join(f"{value:.1f}" for value in cell) for cell in cells) + f" | {minutes} |"
+
+
 def main():
     parser = argparse.ArgumentParser(prog="scripts/bench replan", description=__doc__)
     parser.add_argument("--models", default=",".join(models.PAIRS), help="comma-separated, of: " + ", ".join(models.PAIRS))
     parser.add_argument("--program", type=Path, help="our program (default: the release build, made first)")
     parser.add_argument("--every-variant", action="store_true", help="all that ../shared/peers can make, not only plain files")
-    parser.add_argument("--write", action="store_true", help="write the table of docs/replan.md")
+    parser.add_argument("--write", action="store_true", help="write the tables of docs/replan.md")
     options = parser.parse_args()
     models.require(options.models, models.PAIRS, "scripts/bench replan")
     require_shared("scripts/bench replan")
@@ -166,6 +184,9 @@ def main():
         failures += faults
     if options.write:
         replace_between_markers(DOCUMENT, "scripts/bench replan --write", "\n".join(table) + "\n")
+        kept = two_at_a_time(kept_row, [(options.program, *row) for row in AGAINST_OOZE])
+        head = "| globe sliced with | smears, mm3: before / kept / removed | holes, mm3 | time, min |\n|---|---|---|---|\n"
+        replace_between_markers(DOCUMENT, "scripts/bench replan --write: kept", head + "\n".join(kept) + "\n")
     print(*failures, sep="\n")
     print(f"{len(rows)} files, {len(failures)} bars fail" if failures else f"{len(rows)} files; all bars hold")
     sys.exit(bool(failures))
