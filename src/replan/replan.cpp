@@ -12,6 +12,7 @@
 #include "replan/cura.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/times.hpp"
+#include "replan/told_filament.hpp"
 
 namespace cleancolor {
 namespace {
@@ -66,17 +67,17 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
                     "the rampart: name the printer (--printer) to be sure",
                     print.name, cura_free_mm));
   Replanned result;
-  result.text = std::move(made->text);
   result.has_rampart = made->has_rampart;
   if (judges) result.gain = Gain{made->before, made->cleanness};
   result.removed_mm3 = attempts.removed_mm3();
   result.old_time_s = timeline(print, machine).print_time_s;
   const Timeline time = timeline(made->print, machine);
   result.time_s = time.print_time_s;
-  if (result.old_time_s <= 0) return result;
-  const double told_share = print.facts.told_time_s > 0 ? print.facts.told_time_s / result.old_time_s : 1;
-  if (attempts.tells_progress()) result.text = with_progress(made->print, time, told_share);
-  correct_estimates(result.text, print, result.time_s / result.old_time_s);
+  const double told_share =
+      print.facts.told_time_s > 0 && result.old_time_s > 0 ? print.facts.told_time_s / result.old_time_s : 1;
+  result.text = attempts.tells_progress() ? with_progress(made->print, time, told_share) : std::move(made->text);
+  if (!request.keeps_order) correct_filament(result.text, print, made->print);
+  if (result.old_time_s > 0) correct_estimates(result.text, print, result.time_s / result.old_time_s);
   return result;
 }
 

@@ -118,7 +118,7 @@ TEST(ReplanPrusaSlicer, KeepsStartAndEndToTheLetter) {
   EXPECT_TRUE(out.substr(line).starts_with("; replanned by cleancolor "));
   EXPECT_EQ(out.substr(ours, first - line), bar().substr(line, first - line));
   const std::string end =
-      bar().substr(bar().rfind("\nM107"), bar().find("; estimated printing time") - bar().rfind("\nM107"));
+      bar().substr(bar().rfind("\nM107"), bar().find("; filament used") - bar().rfind("\nM107"));
   EXPECT_NE(out.find(end), out.npos);
   const std::size_t config = bar().find("; prusaslicer_config = begin");
   EXPECT_TRUE(out.ends_with(bar().substr(config)));
