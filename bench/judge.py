@@ -24,11 +24,11 @@ def hash_of(program):
     return hashlib.sha256(Path(program).read_bytes()).hexdigest()[:16]
 
 
-def audited(program, gcode, variant=""):
-    """The judgement of one file. Where `variant` says fwoffset, the firmware makes up for the nozzles' offsets."""
+def audited(program, gcode, variant="", sensitivity=True):
+    """The judgement of one file; sensitivity: with all scenarios, not `worst` and `model` alone. Where `variant` says fwoffset, the firmware makes up for the nozzles' offsets."""
     form = "firmware" if "fwoffset" in variant else "slicer"
     done = subprocess.run([program, "audit", gcode, "--nozzle-offset", OFFSETS, "--offsets-in", form, "--quiet",
-                           "--sensitivity", "--threads", "1", "--json", "-"],
+                           *(["--sensitivity"] if sensitivity else []), "--threads", "1", "--json", "-"],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"{gcode.name}: {done.stderr.strip()}")
@@ -39,15 +39,15 @@ def audited(program, gcode, variant=""):
     return judged
 
 
-def audited_once(program, gcode, variant, any_program=False):
+def audited_once(program, gcode, variant, any_program=False, sensitivity=True):
     """As audited, from before where neither file nor program changed; any_program: where the file did not."""
-    file = gcode.with_name(gcode.name + ".audit.json")
+    file = gcode.with_name(gcode.name + (".audit.json" if sensitivity else ".worst.json"))
     key = [gcode.stat().st_size, gcode.stat().st_mtime_ns]
     if file.exists():
         before = json.loads(file.read_text())
         if before["gcode"] == key and (any_program or before["program"] == hash_of(program)):
             return before["judged"]
-    judged = audited(program, gcode, variant)
+    judged = audited(program, gcode, variant, sensitivity)
     file.write_text(json.dumps({"gcode": key, "program": hash_of(program), "judged": judged}))
     return judged
 

@@ -135,7 +135,7 @@ def judged_row(program, name, slicer, variant):
     if not after:
         return f"| {title} | left as it is: {reason} | | | |", [f"{title}: {reason}"]
     faults = same_print(before, after)
-    old, new = (audited_once(program, file, variant) for file in (before, after))
+    old, new = (audited_once(program, file, variant, sensitivity=False) for file in (before, after))
     pairs = {key: (figure(old, key), figure(new, key)) for key in ("smear_volume", "hole_volume")}
     minutes = [j["print"]["time_s"] / 60 for j in (old, new)]
     (old_smear, smear), (old_holes, holes) = pairs.values()
@@ -158,7 +158,7 @@ def kept_row(program, title, slicer, variant, remove):
     """One row of the table of what slicers do against ooze: of the globe, kept and removed."""
     before = sliced(program, GLOBE, slicer, variant)
     files = [before, *(replanned(program, before, variant, *added)[0] for added in ([], [remove]))]
-    judged = [audited_once(program, file, variant) for file in files]
+    judged = [audited_once(program, file, variant, sensitivity=False) for file in files]
     cells = [[figure(j, key) for j in judged] for key in ("smear_volume", "hole_volume")]
     minutes = " / ".join(f"{j['print']['time_s'] / 60:.0f}" for j in judged)
     return f"| {title} | " + " | ".join(" / ".join(f"{value:.1f}" for value in cell) for cell in cells) + f" | {minutes} |"

@@ -97,6 +97,7 @@ struct ReplanCommand : MachineOptions {
   bool keep_going = false;
   ReplanProtection protection = ReplanProtection::full;
   bool keeps_order = false;  // and travel
+  bool keeps_seams = false;
   bool removes_shield = false, removes_tower = false;
   int threads = 0;
   bool quiet = false;

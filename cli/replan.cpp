@@ -79,6 +79,7 @@ void replan(const ReplanCommand& command, Console& console, std::ostream& out) {
                                      {.printer = request.printer,
                                       .protection = command.protection,
                                       .keeps_order = command.keeps_order,
+                                      .keeps_seams = command.keeps_seams,
                                       .removes_shield = command.removes_shield,
                                       .removes_tower = command.removes_tower,
                                       .threads = threads},

@@ -59,6 +59,11 @@ CLI::App* add_replan(CLI::App& program, ReplanTexts& texts) {
       ->group(group);
   replan->add_option("--travel", texts.travel, "ways between the paths")->type_name("plan|keep")->group(group);
   replan
+      ->add_option("--seams", texts.seams,
+                   "where loops begin; keep: as in the file, for seams that are painted or aligned on purpose")
+      ->type_name("plan|keep")
+      ->group(group);
+  replan
       ->add_flag("--remove-shield", command.removes_shield,
                  "take away a skirt as high as the print; the rampart takes its place")
       ->group(group);
@@ -88,6 +93,7 @@ ReplanCommand replan_command(ReplanTexts texts) {
   const bool keeps_order = is_kept(texts.order, "--order"), keeps_travel = is_kept(texts.travel, "--travel");
   if (keeps_order != keeps_travel) throw Error("--order keep and --travel keep go together: say both");
   command.keeps_order = keeps_order;
+  command.keeps_seams = is_kept(texts.seams, "--seams");
   if (keeps_order && (command.removes_shield || command.removes_tower))
     throw Error("--remove-shield and --remove-tower leave no order to keep: leave out --order keep --travel keep");
   command.protection = protection_of(texts.protect);

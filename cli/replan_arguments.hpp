@@ -15,7 +15,7 @@ namespace cleancolor {
 struct ReplanTexts {
   ReplanCommand command;
   MachineTexts machine;
-  std::string order = "plan", travel = "plan", protect = "full";
+  std::string order = "plan", travel = "plan", seams = "plan", protect = "full";
 };
 
 /// What `cleancolor replan --help` says first.

@@ -23,6 +23,7 @@ std::string header_line(const ReplanRequest& request, bool has_rampart) {
   std::string what = request.keeps_order ? "order and travel kept" : "order and travel ";
   if (!request.keeps_order) {
     what += request.protection == ReplanProtection::full ? "planned" : "plain";
+    if (request.keeps_seams) what += ", seams kept";
     what += has_rampart ? ", rampart added" : ", no rampart";
   }
   return fmt::format("{}{}: {}; paths and settings as sliced", replanned_mark, CLEANCOLOR_VERSION, what);
@@ -50,9 +51,12 @@ Attempts::Attempts(const GcodePrint& print, const AuditMachine& machine, const R
 }
 
 Attempt Attempts::with(RampartExtent extent) const {
-  ReplannedLayers planned =
-      planned_layers(recovered_, source(), machine_, config_,
-                     {.plans = !request_.keeps_order, .rampart = extent, .threads = request_.threads}, progress_);
+  ReplannedLayers planned = planned_layers(recovered_, source(), machine_, config_,
+                                           {.plans = !request_.keeps_order,
+                                            .keeps_seams = request_.keeps_seams,
+                                            .rampart = extent,
+                                            .threads = request_.threads},
+                                           progress_);
   progress_.advance("writing", 0);
   Attempt made{
       .text = written(recovered_, source(), machine_, config_, planned.layers,

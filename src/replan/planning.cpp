@@ -90,7 +90,7 @@ Path path_of_stop(FilePoint at, int tool, int source, double height_mm, const Au
 }
 
 void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
-                   Scene& scene) {
+                   bool keeps_seams, Scene& scene) {
   const RecoveredLayer& layer = recovered.layers[k];
   std::vector<LaidRoad> roads;
   Polygons auxiliary;
@@ -144,6 +144,7 @@ void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePr
       leaving.stretches.resize(1);
       scene.stops[k].push_back({int(i), true, std::move(leaving)});
     }
+    if (keeps_seams) path.closed = false;
     path.island = zone_of(path, zones);
     path.depth = depth_of(path, path.island >= 0 ? &zones[std::size_t(path.island)] : nullptr);
     // Part plastic that lies in no zone waits for nothing, and nothing for it.
@@ -152,7 +153,8 @@ void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePr
   }
 }
 
-Scene scene_of(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine, int threads) {
+Scene scene_of(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine, bool keeps_seams,
+               int threads) {
   Scene scene;
   const std::size_t count = recovered.layers.size();
   for (Slices* slices : {&scene.slices, &scene.around}) {
@@ -163,7 +165,8 @@ Scene scene_of(const RecoveredPrint& recovered, const GcodePrint& print, const A
   }
   scene.layers.resize(count);
   scene.stops.resize(count);
-  parallel_for(int(count), threads, [&](int k) { recover_layer(std::size_t(k), recovered, print, machine, scene); });
+  parallel_for(int(count), threads,
+               [&](int k) { recover_layer(std::size_t(k), recovered, print, machine, keeps_seams, scene); });
   const auto shield = shield_runs(recovered, print);
   scene.has_shield = !shield.empty();
   for (std::size_t k = 0; k < shield.size(); ++k)
@@ -374,7 +377,7 @@ Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodeP
 ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
                                Config config, const ReplanOptions& options, const Progress& progress) {
   progress.advance("regions", 0);
-  Scene scene = scene_of(recovered, print, machine, options.threads);
+  Scene scene = scene_of(recovered, print, machine, options.keeps_seams, options.threads);
   require_part(scene, print);
   if (!options.plans) {
     for (std::size_t k = 0; k < scene.layers.size(); ++k)

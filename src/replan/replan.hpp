@@ -27,6 +27,7 @@ struct ReplanRequest {
   std::optional<Config> printer = {};  // a profile; the file's configuration is put over it
   ReplanProtection protection = ReplanProtection::full;
   bool keeps_order = false;     // order, starts and travel stay those of the file
+  bool keeps_seams = false;     // loops begin where they do in the file
   bool removes_shield = false;  // a skirt as high as the print; a rampart takes its place
   bool removes_tower = false;   // that wipes; likewise
   int threads = 1;

@@ -7,6 +7,7 @@
 
 #include "drawn.hpp"
 #include "reader/read.hpp"
+#include "sanitized.hpp"
 #include "support_errors.hpp"
 
 using namespace cleancolor;
@@ -226,7 +227,7 @@ TEST(Audit, CanBeInterrupted) {
 
 TEST(Audit, NonsenseOfAnyKindGivesFiniteFigures) {
   int read = 0;
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for (unsigned seed = 0; seed < unsigned(test::trials(200)); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
     const auto below = [&](int n) { return int(random() % unsigned(n)); };
@@ -270,7 +271,7 @@ TEST(Audit, NonsenseOfAnyKindGivesFiniteFigures) {
         EXPECT_GE(f.of(s.total), -1e-9) << f.name;
       }
   }
-  EXPECT_GT(read, 100);
+  EXPECT_GT(read, test::trials(100));
 }
 
 // 20 000 roads that all cross at one place, in one layer: every way meets every road.

@@ -10,6 +10,7 @@
 #include "drawn_slices.hpp"
 #include "model/check.hpp"
 #include "model/read.hpp"
+#include "sanitized.hpp"
 
 using namespace cleancolor;
 using namespace cleancolor::test;
@@ -116,7 +117,7 @@ TEST(Interference, OfABarIsZeroWhereItLiesAcrossTheNozzles) {
 }
 
 TEST(Interference, OfRandomShapesIsWhatCountingPointsGives) {
-  for (unsigned seed = 1; seed <= 4; ++seed)
+  for (unsigned seed = 1; seed <= unsigned(test::trials(4)); ++seed)
     for (const int count : {2, 3}) {
       std::vector<Vec2> offsets{{0, 0}, {11, 2}, {-4, 9}};
       offsets.resize(std::size_t(count));

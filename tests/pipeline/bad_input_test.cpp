@@ -9,6 +9,7 @@
 #include "model/settings.hpp"
 #include "program.hpp"
 #include "replay.hpp"
+#include "sanitized.hpp"
 #include "slicing.hpp"
 
 namespace cleancolor {

@@ -34,11 +34,4 @@ pid_t started(
 /// Names of the files in the folder, sorted, without those in which run() keeps what was said.
 std::vector<std::string> files_in(const TestFolder& folder);
 
-/// Sanitizers take memory and time that are not the program's.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool sanitized = true;
-#else
-inline constexpr bool sanitized = false;
-#endif
-
 }  // namespace cleancolor::test

@@ -13,6 +13,7 @@
 #include "model/settings.hpp"
 #include "reader/read.hpp"
 #include "replay.hpp"
+#include "sanitized.hpp"
 #include "slicing.hpp"
 
 namespace cleancolor {
@@ -272,10 +273,7 @@ class ProtectionOfModel : public testing::TestWithParam<const char*> {};
 
 TEST_P(ProtectionOfModel, KeepsIdleNozzlesOffAndStaysOnTheBed) {
   if (!shared_models_are_there()) GTEST_SKIP() << "needs the models of " << CLEANCOLOR_SHARED;
-#ifdef __SANITIZE_ADDRESS__
-  for (const char* large : {"dragon-heart", "spot-cow", "two-color-world-50mm"})
-    if (std::string(large) == GetParam()) GTEST_SKIP() << "takes a minute under sanitizers; the smaller models do not";
-#endif
+  SKIP_LARGE_WHERE_SANITIZED(GetParam());
   const Model& model = model_named(GetParam());
   const TestFolder folder;
   SliceRequest request = request_for(model, replicator(), folder.path("out.gcode"));

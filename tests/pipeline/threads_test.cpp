@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model/settings.hpp"
+#include "sanitized.hpp"
 #include "slicing.hpp"
 
 namespace cleancolor {
@@ -11,6 +12,7 @@ namespace {
 using namespace test;
 
 void expect_same_bytes(const char* name, const std::vector<std::string>& options) {
+  SKIP_LARGE_WHERE_SANITIZED(name);
   if (!shared_models_are_there()) GTEST_SKIP() << "needs the models of " << CLEANCOLOR_SHARED;
   const TestFolder folder;
   const auto& all = models();

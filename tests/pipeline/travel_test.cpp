@@ -16,6 +16,7 @@
 #include "plan/free_way.hpp"
 #include "protection.hpp"
 #include "replay.hpp"
+#include "sanitized.hpp"
 #include "slicing.hpp"
 #include "toolpath/roads.hpp"
 
@@ -145,10 +146,7 @@ class TravelOfModel : public testing::TestWithParam<const char*> {};
 
 TEST_P(TravelOfModel, CrossesVisibleForeignPlasticOnlyWhereAFineGridFindsNoWay) {
   if (!shared_models_are_there()) GTEST_SKIP() << "needs the models of " << CLEANCOLOR_SHARED;
-#ifdef __SANITIZE_ADDRESS__
-  for (const char* large : {"dragon-heart", "spot-cow", "robot-ice"})
-    if (std::string(large) == GetParam()) GTEST_SKIP() << "takes minutes under sanitizers; the smaller models do not";
-#endif
+  SKIP_LARGE_WHERE_SANITIZED(GetParam());
   const Model& model = model_named(GetParam());
   const TestFolder folder;
   SliceRequest request = request_for(model, config_of({.printer = "replicator-dual"}), folder.path("out.gcode"));

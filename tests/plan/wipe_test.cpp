@@ -7,6 +7,7 @@
 #include "drawn_layer.hpp"
 #include "plan/clear_way.hpp"
 #include "plan/planner.hpp"
+#include "sanitized.hpp"
 
 namespace cleancolor {
 namespace {
@@ -153,7 +154,7 @@ TEST(Wipe, IsMadeJustBeforeACrossingThatMustBe) {
 TEST(Wipe, OfRandomLayersNeverSpoilsMoreNorCrossesMore) {
   std::mt19937 random(11);
   int changed = 0;
-  for (int t = 0; t < 40; ++t) {
+  for (int t = 0; t < trials(40); ++t) {
     SCOPED_TRACE(t);
     std::vector<Path> paths;
     const DrawnLayer drawn = random_drawn_layer(random, 10, 40, paths);
@@ -181,7 +182,7 @@ TEST(Wipe, OfRandomLayersNeverSpoilsMoreNorCrossesMore) {
     };
     EXPECT_LE(spoilt(after), spoilt(before) + 0.01);
   }
-  EXPECT_GT(changed, 8);
+  EXPECT_GT(changed, trials(8));
 }
 
 TEST(Wipe, IsPartOfThePlanUnlessSwitchedOff) {

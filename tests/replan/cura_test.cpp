@@ -9,6 +9,7 @@
 
 #include "replan/cura.hpp"
 #include "replanning.hpp"
+#include "sanitized.hpp"
 
 namespace cleancolor {
 namespace {
@@ -395,9 +396,7 @@ TEST(ReplanCura, ModelsOfThePaperComeOutClean) {
   const std::string shared = CLEANCOLOR_SHARED, script = shared + "/peers/slice-cura.sh";
   if (!std::filesystem::exists(script) || std::system("command -v CuraEngine > /dev/null") != 0)
     GTEST_SKIP() << "needs CuraEngine and " << script;
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "takes minutes under sanitizers";
-#endif
+  if (sanitized) GTEST_SKIP() << "takes minutes under sanitizers";
   const TestFolder folder;
   const std::string out = folder.path("sliced.gcode");
   const std::string command = fmt::format(

@@ -1,12 +1,16 @@
 // Files of PrusaSlicer: the fixture is two bars of two colours, 40 x 8 mm each, side by side in 8 layers, by
 // PrusaSlicer 2.5.0.
 
+#include <array>
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
 #include "replanning.hpp"
+#include "sanitized.hpp"
 
 namespace cleancolor {
 namespace {
@@ -117,11 +121,36 @@ TEST(ReplanPrusaSlicer, KeepsStartAndEndToTheLetter) {
   const std::size_t ours = out.find('\n', line) + 1;
   EXPECT_TRUE(out.substr(line).starts_with("; replanned by cleancolor "));
   EXPECT_EQ(out.substr(ours, first - line), bar().substr(line, first - line));
-  const std::string end =
-      bar().substr(bar().rfind("\nM107"), bar().find("; filament used") - bar().rfind("\nM107"));
+  const std::string end = bar().substr(bar().rfind("\nM107"), bar().find("; filament used") - bar().rfind("\nM107"));
   EXPECT_NE(out.find(end), out.npos);
   const std::size_t config = bar().find("; prusaslicer_config = begin");
   EXPECT_TRUE(out.ends_with(bar().substr(config)));
+}
+
+/// Where each outer wall begins and ends: z, then both places, the smaller first.
+std::multiset<std::array<double, 5>> seams_of(const std::string& text) {
+  const GcodePrint print = read_gcode(text, "");
+  std::multiset<std::array<double, 5>> seams;
+  for (std::size_t i = 1; i < print.moves.size(); ++i) {
+    const auto is_outer = [&](std::size_t k) {
+      return lays_plastic(print, k) && print.moves[k].role == Role::external_perimeter;
+    };
+    if (!is_outer(i) || is_outer(i - 1)) continue;
+    std::size_t last = i;
+    while (last + 1 < print.moves.size() && is_outer(last + 1)) ++last;
+    Vec3 a = print.moves[i - 1].to_mm, b = print.moves[last].to_mm;
+    if (std::pair(b.x, b.y) < std::pair(a.x, a.y)) std::swap(a, b);
+    seams.insert({a.z, a.x, a.y, b.x, b.y});
+  }
+  return seams;
+}
+
+TEST(ReplanPrusaSlicer, LeavesSeamsWhereTheyAreOnRequest) {
+  const std::string kept = replanned_text(bar(), {.keeps_seams = true}).text;
+  ASSERT_GE(seams_of(bar()).size(), 12u);
+  EXPECT_EQ(seams_of(kept), seams_of(bar()));
+  EXPECT_NE(seams_of(bar_replanned()), seams_of(bar()));
+  EXPECT_NE(kept.find("planned, seams kept"), kept.npos);
 }
 
 TEST(ReplanPrusaSlicer, TellsTheTimeThatItTakesNow) {
@@ -272,10 +301,7 @@ TEST_P(ReplanModels, ComeOutClean) {
   if (!std::filesystem::exists(script) || std::system("command -v prusa-slicer > /dev/null") != 0)
     GTEST_SKIP() << "needs PrusaSlicer and " << script;
   const Model& m = GetParam();
-#ifdef __SANITIZE_ADDRESS__
-  if (std::string(m.name) != "rose" && std::string(m.name) != "four_cones")
-    GTEST_SKIP() << "takes minutes under sanitizers; the smaller models do not";
-#endif
+  SKIP_LARGE_WHERE_SANITIZED(m.name);
   const TestFolder folder;
   const std::string out = folder.path("sliced.gcode");
   const std::string command =

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "paper_outlines.hpp"
+#include "sanitized.hpp"
 #include "shield/rampart.hpp"
 #include "slice/slices.hpp"
 
@@ -223,6 +224,7 @@ class RampartOfModel : public testing::TestWithParam<PaperModel> {};
 TEST_P(RampartOfModel, IsSound) {
   if (!std::filesystem::exists(std::filesystem::path(CLEANCOLOR_SHARED) / "models"))
     GTEST_SKIP() << "needs the models of " << CLEANCOLOR_SHARED;
+  SKIP_LARGE_WHERE_SANITIZED(GetParam().name);
   for (const double layer_mm : {0.3, 0.6}) {
     const std::vector<Polygons> outlines =
         unpacked(paper_outlines(GetParam().name, GetParam().first, GetParam().second, layer_mm));
