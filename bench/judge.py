@@ -25,7 +25,10 @@ def hash_of(program):
 
 
 def audited(program, gcode, variant="", sensitivity=True):
-    """The judgement of one file; sensitivity: with all scenarios, not `worst` and `model` alone. Where `variant` says fwoffset, the firmware makes up for the nozzles' offsets."""
+    """The judgement of one file; sensitivity: with all scenarios, not `worst` and `model` alone.
+
+    Where `variant` says fwoffset, the firmware makes up for the nozzles' offsets.
+    """
     form = "firmware" if "fwoffset" in variant else "slicer"
     done = subprocess.run([program, "audit", gcode, "--nozzle-offset", OFFSETS, "--offsets-in", form, "--quiet",
                            *(["--sensitivity"] if sensitivity else []), "--threads", "1", "--json", "-"],
