@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
 #include <utility>
@@ -70,7 +69,7 @@ class Search {
     }
     double end = unreached;
     while (!heap_.empty() && open > 0) {
-      std::ranges::pop_heap(heap_, std::greater());
+      std::ranges::pop_heap(heap_, is_later);
       const auto [cost, node] = heap_.back();
       heap_.pop_back();
       Node& here = nodes_[node];
@@ -94,7 +93,7 @@ class Search {
         } else if (arc.foreign > 0) {
           c += travel_.smear(double(arc.foreign), here.dirty_mm + length);
         }
-        if (c >= there.cost) continue;
+        if (c >= there.cost || c > end) continue;
         if ((map_.reached_by[arc.to] >> nozzle & 1) == 0 && there.wanted == 0) continue;
         offer(arc.to, c, here.way_mm + length, node);
         there.dirty_mm = arc.foreign > 0 ? 0 : here.dirty_mm + length;
@@ -130,6 +129,11 @@ class Search {
   }
 
  private:
+  using Step = std::pair<double, std::uint32_t>;  // cost, node
+  static bool is_later(const Step& a, const Step& b) {
+    return a.first != b.first ? a.first > b.first : a.second > b.second;
+  }
+
   /// What the search before found.
   void forget() {
     for (const std::uint32_t node : known_)
@@ -161,7 +165,7 @@ class Search {
     n.way_mm = n.dirty_mm = way_mm;
     n.before = from;
     heap_.emplace_back(cost, node);
-    std::ranges::push_heap(heap_, std::greater());
+    std::ranges::push_heap(heap_, is_later);
   }
 
   struct Node {
@@ -186,7 +190,7 @@ class Search {
   std::vector<Later> later_;          // backwards
   std::vector<std::uint32_t> known_;  // nodes that the arrays above say something of: first the targets
   std::size_t targets_ = 0;
-  std::vector<std::pair<double, std::uint32_t>> heap_;
+  std::vector<Step> heap_;
 };
 
 }  // namespace cleancolor
