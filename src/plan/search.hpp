@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
 #include <utility>
@@ -35,15 +34,7 @@ inline std::uint32_t before(const Predecessors& log, std::uint32_t node) {
 /// One shortest path search after another over the same nodes.
 class Search {
  public:
-  Search(const Roadmap& map, const TravelCost& travel)
-      : map_(map),
-        travel_(travel),
-        cost_(map.nodes_mm.size(), unreached),
-        way_mm_(cost_.size()),
-        dirty_mm_(cost_.size()),
-        before_(cost_.size(), nobody),
-        extra_(cost_.size()),
-        wanted_(cost_.size(), 0) {}
+  Search(const Roadmap& map, const TravelCost& travel) : map_(map), travel_(travel), nodes_(map.nodes_mm.size()) {}
 
   struct Seed {
     std::uint32_t node = 0;
@@ -62,103 +53,130 @@ class Search {
            Direction direction = Direction::forwards) {
     const bool is_back = direction == Direction::backwards;
     forget();
-    if (is_back) later_.resize(cost_.size());
+    if (is_back) later_.resize(nodes_.size());
     std::size_t open = 0;
+    targets_ = targets.size();
     for (const Seed& t : targets) {
+      Node& node = nodes_[t.node];
       known_.push_back(t.node);
-      open += wanted_[t.node] == 0;
-      extra_[t.node] = wanted_[t.node] == 0 ? t.cost : std::min(extra_[t.node], t.cost);
-      wanted_[t.node] = 1;
+      open += node.wanted == 0;
+      node.extra = node.wanted == 0 ? t.cost : std::min(node.extra, t.cost);
+      node.wanted = 1;
     }
     for (const Seed& s : seeds) {
-      if (is_back && s.cost < cost_[s.node]) later_[s.node] = {s.mm_cost, 0};
+      if (is_back && s.cost < nodes_[s.node].cost) later_[s.node] = {s.mm_cost, 0};
       offer(s.node, s.cost, 0, nobody);
     }
     double end = unreached;
     while (!heap_.empty() && open > 0) {
-      std::ranges::pop_heap(heap_, std::greater());
+      std::ranges::pop_heap(heap_, is_later);
       const auto [cost, node] = heap_.back();
       heap_.pop_back();
-      if (cost > cost_[node]) continue;
+      Node& here = nodes_[node];
+      if (cost > here.cost) continue;
       if (cost > end) break;
-      if (wanted_[node] == 1) {
-        wanted_[node] = 2;
+      if (here.wanted == 1) {
+        here.wanted = 2;
         --open;
-        end = std::min(end, cost + extra_[node] + slack);
+        end = std::min(end, cost + here.extra + slack);
       }
       for (const Arc& arc : map_.arcs_of(node)) {
-        const double length = distance(map_.nodes_mm[node], map_.nodes_mm[arc.to]);
+        Node& there = nodes_[arc.to];
         double c = cost + double(arc.cost);
+        if (c >= there.cost) continue;  // what touches cost comes on top
+        const double length = distance(map_.nodes_mm[node], map_.nodes_mm[arc.to]);
         Later later;
         if (is_back) {
           later = later_[node];
           if (arc.foreign > 0) later.foreign = double(arc.foreign);
           c += travel_.smear(later.foreign, length) + later.mm_cost * length;
         } else if (arc.foreign > 0) {
-          c += travel_.smear(double(arc.foreign), dirty_mm_[node] + length);
+          c += travel_.smear(double(arc.foreign), here.dirty_mm + length);
         }
-        if (c >= cost_[arc.to]) continue;
-        if ((map_.reached_by[arc.to] >> nozzle & 1) == 0 && wanted_[arc.to] == 0) continue;
-        offer(arc.to, c, way_mm_[node] + length, node);
-        dirty_mm_[arc.to] = arc.foreign > 0 ? 0 : dirty_mm_[node] + length;
+        if (c >= there.cost || c > end) continue;
+        if ((map_.reached_by[arc.to] >> nozzle & 1) == 0 && there.wanted == 0) continue;
+        offer(arc.to, c, here.way_mm + length, node);
+        there.dirty_mm = arc.foreign > 0 ? 0 : here.dirty_mm + length;
         if (is_back) later_[arc.to] = later;
       }
     }
     // What was reached but not settled is no shortest path yet.
     for (const Seed& t : targets)
-      if (wanted_[t.node] == 1) cost_[t.node] = unreached;
-    const auto is_reached = [&](const Seed& t) { return cost_[t.node] < unreached; };
+      if (nodes_[t.node].wanted == 1) nodes_[t.node].cost = unreached;
+    const auto is_reached = [&](const Seed& t) { return nodes_[t.node].cost < unreached; };
     if (std::ranges::none_of(targets, is_reached)) go_straight(seeds, targets);
   }
 
-  double cost(std::uint32_t node) const { return cost_[node]; }
-  double way_mm(std::uint32_t node) const { return way_mm_[node]; }
-  /// The nodes that ways lead to, and the one before each, by node.
-  Predecessors predecessors() const {
+  double cost(std::uint32_t node) const { return nodes_[node].cost; }
+  double way_mm(std::uint32_t node) const { return nodes_[node].way_mm; }
+  /// Of the ways to the targets: their nodes, and the one before each, by node.
+  Predecessors predecessors() {
     Predecessors log;
-    for (const std::uint32_t node : known_)
-      if (before_[node] != nobody) log.emplace_back(node, before_[node]);
+    for (std::size_t i = 0; i < targets_; ++i)
+      for (std::uint32_t node = known_[i]; nodes_[node].before != nobody && !nodes_[node].logged;
+           node = nodes_[node].before) {
+        nodes_[node].logged = true;
+        log.emplace_back(node, nodes_[node].before);
+      }
+    for (const auto& [node, before] : log) nodes_[node].logged = false;
     std::ranges::sort(log);
     return log;
   }
   /// Where the way to the node begins.
   std::uint32_t begin_of(std::uint32_t node) const {
-    while (before_[node] != nobody) node = before_[node];
+    while (nodes_[node].before != nobody) node = nodes_[node].before;
     return node;
   }
 
  private:
+  using Step = std::pair<double, std::uint32_t>;  // cost, node
+  static bool is_later(const Step& a, const Step& b) {
+    return a.first != b.first ? a.first > b.first : a.second > b.second;
+  }
+
   /// What the search before found.
   void forget() {
-    for (const std::uint32_t node : known_) cost_[node] = unreached, before_[node] = nobody, wanted_[node] = 0;
+    for (const std::uint32_t node : known_)
+      nodes_[node].cost = unreached, nodes_[node].before = nobody, nodes_[node].wanted = 0;
     known_.clear();
     heap_.clear();
   }
 
   /// Where places within reach do not hang together.
   void go_straight(std::span<const Seed> seeds, std::span<const Seed> targets) {
-    for (const std::uint32_t node : known_) before_[node] = nobody;
-    for (const Seed& s : seeds) cost_[s.node] = s.cost;
+    for (const std::uint32_t node : known_) nodes_[node].before = nobody;
+    for (const Seed& s : seeds) nodes_[s.node].cost = s.cost;
     for (const auto& [t, extra, mm_cost] : targets)
       for (const Seed& s : seeds) {
         const double length = distance(map_.nodes_mm[s.node], map_.nodes_mm[t]);
         const double c = s.cost + travel_.way(map_.nodes_mm[s.node], map_.nodes_mm[t]) + s.mm_cost * length;
-        if (c >= cost_[t]) continue;
-        cost_[t] = c;
-        way_mm_[t] = length;
-        before_[t] = s.node == t ? nobody : s.node;
+        if (c >= nodes_[t].cost) continue;
+        nodes_[t].cost = c;
+        nodes_[t].way_mm = length;
+        nodes_[t].before = s.node == t ? nobody : s.node;
       }
   }
 
   void offer(std::uint32_t node, double cost, double way_mm, std::uint32_t from) {
-    if (cost >= cost_[node]) return;
-    if (cost_[node] == unreached) known_.push_back(node);
-    cost_[node] = cost;
-    way_mm_[node] = dirty_mm_[node] = way_mm;
-    before_[node] = from;
+    Node& n = nodes_[node];
+    if (cost >= n.cost) return;
+    if (n.cost == unreached) known_.push_back(node);
+    n.cost = cost;
+    n.way_mm = n.dirty_mm = way_mm;
+    n.before = from;
     heap_.emplace_back(cost, node);
-    std::ranges::push_heap(heap_, std::greater());
+    std::ranges::push_heap(heap_, is_later);
   }
+
+  struct Node {
+    double cost = unreached;
+    double way_mm = 0;    // from the seed
+    double dirty_mm = 0;  // since foreign plastic was touched
+    double extra = 0;     // of targets: what entering there costs
+    std::uint32_t before = nobody;
+    char wanted = 0;      // 1: it is a target, 2: it is settled
+    bool logged = false;  // it is among the predecessors
+  };
 
   /// What a way back is charged for each mm.
   struct Later {
@@ -168,15 +186,11 @@ class Search {
 
   const Roadmap& map_;
   const TravelCost& travel_;
-  std::vector<double> cost_;
-  std::vector<double> way_mm_;    // from the seed
-  std::vector<double> dirty_mm_;  // since foreign plastic was touched
-  std::vector<Later> later_;      // backwards
-  std::vector<std::uint32_t> before_;
-  std::vector<double> extra_;  // of targets: what entering there costs
-  std::vector<char> wanted_;
-  std::vector<std::uint32_t> known_;  // nodes that the arrays above say something of
-  std::vector<std::pair<double, std::uint32_t>> heap_;
+  std::vector<Node> nodes_;
+  std::vector<Later> later_;          // backwards
+  std::vector<std::uint32_t> known_;  // nodes that the arrays above say something of: first the targets
+  std::size_t targets_ = 0;
+  std::vector<Step> heap_;
 };
 
 }  // namespace cleancolor

@@ -6,6 +6,7 @@
 
 #include "audit/timeline.hpp"
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "reader/read.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/found_roles.hpp"
@@ -48,48 +49,74 @@ Attempts::Attempts(const GcodePrint& print, const AuditMachine& machine, const R
   recovered_ = recovered_print(source());
   if (request.removes_shield) removed_ = remove_shield(recovered_, source());
   if (request.removes_tower) removed_.merge(remove_tower(recovered_, source()));
+  progress.advance("regions", 0);
+  scene_ = scene_of(recovered_, source(), machine, request.keeps_seams, request.threads);
 }
 
-Attempt Attempts::with(RampartExtent extent) const {
-  ReplannedLayers planned = planned_layers(recovered_, source(), machine_, config_,
-                                           {.plans = !request_.keeps_order,
-                                            .keeps_seams = request_.keeps_seams,
-                                            .rampart = extent,
-                                            .threads = request_.threads},
-                                           progress_);
-  progress_.advance("writing", 0);
-  Attempt made{
-      .text = written(recovered_, source(), machine_, config_, planned.layers,
-                      {.as_in_file = request_.keeps_order, .header = header_line(request_, planned.has_rampart)}),
-      .print = {},
-      .has_rampart = planned.has_rampart,
-      .stands_apart = planned.stands_apart};
+Attempt Attempts::planned(RampartExtent extent) const {
+  Attempt made;
+  {
+    const ReplannedLayers planned =
+        planned_layers(scene_, recovered_, source(), machine_, config_,
+                       {.plans = !request_.keeps_order, .rampart = extent, .threads = request_.threads}, progress_);
+    progress_.advance("writing", 0);
+    made.has_rampart = planned.has_rampart;
+    made.stands_apart = planned.stands_apart;
+    made.text = written(recovered_, source(), machine_, config_, planned.layers,
+                        {.as_in_file = request_.keeps_order, .header = header_line(request_, planned.has_rampart)});
+  }
   made.print = read_gcode(made.text, print_.name);
   const DialectWords& words = *words_of(print_.facts.dialect);
   if (words.times_heaters && sets_temperatures(recovered_, print_)) {
     made.text = with_heaters(recovered_, print_, made.print, machine_, words.layer_begins.front());
     made.print = read_gcode(made.text, print_.name);
   }
-  if (const auto what = difference(print_, made.print, machine_, removed_))
+  return made;
+}
+
+void Attempts::require_same(const GcodePrint& made) const {
+  if (const auto what = difference(print_, made, machine_, {removed_, request_.threads}))
     throw Error(
         fmt::format("{}: re-planned it would not be the same print: {}; the file is left as it is. Please "
                     "report it",
                     print_.name, *what));
+}
+
+Attempt Attempts::with(RampartExtent extent) const {
+  Attempt made = planned(extent);
+  require_same(made.print);
+  return made;
+}
+
+Attempt Attempts::judged(RampartExtent extent) const {
+  Attempt made = planned(extent);
+  parallel_for(2, request_.threads, [&](int i) {
+    if (i == 0)
+      require_same(made.print);
+    else
+      made.cleanness = cleanness(made.print, machine_, request_.threads, progress_);
+  });
   return made;
 }
 
 std::optional<Attempt> Attempts::best() const {
-  Attempt best = with(RampartExtent::all);
-  const Cleanness before = judged(print_);
-  best.cleanness = judged(best.print);
+  Attempt best;
+  Cleanness before;
+  // A rampart is made one layer after the other: meanwhile another thread can judge the file.
+  const Progress quiet{.interrupted = progress_.interrupted};
+  parallel_for(2, request_.threads, [&](int i) {
+    if (i == 0)
+      best = judged(RampartExtent::all);
+    else
+      before = cleanness(print_, machine_, 1, quiet);
+  });
   const std::vector<RampartExtent> others =
       best.has_rampart ? worth_trying(best.cleanness, before, config_) : std::vector<RampartExtent>{};
   const bool had_rampart = best.has_rampart, stands_apart = best.stands_apart;
   for (const RampartExtent extent : others) {
     if (extent == RampartExtent::column && !stands_apart) continue;
     try {
-      Attempt other = with(extent);
-      other.cleanness = judged(other.print);
+      Attempt other = judged(extent);
       if (print_cost(other.cleanness, before, config_) < print_cost(best.cleanness, before, config_))
         best = std::move(other);
     } catch (const Error&) {  // the first one is good all the same
@@ -120,10 +147,6 @@ double Attempts::removed_mm3() const {
   double sum = 0;
   for (const auto& [what, mm] : removed_) sum += mm * filament_area_mm2(machine_, what.first);
   return sum;
-}
-
-Cleanness Attempts::judged(const GcodePrint& print) const {
-  return cleanness(print, machine_, request_.threads, progress_);
 }
 
 }  // namespace cleancolor

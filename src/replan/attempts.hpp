@@ -10,6 +10,7 @@
 #include "replan/recovered.hpp"
 #include "replan/removed.hpp"
 #include "replan/replan.hpp"
+#include "replan/scene.hpp"
 #include "replan/worth.hpp"
 
 namespace cleancolor {
@@ -34,7 +35,7 @@ class Attempts {
   /// Throws Error where the result would not be the same print.
   Attempt with(RampartExtent extent) const;
 
-  /// The one that costs least; nothing where the file itself does.
+  /// The one that costs least, judged; nothing where the file itself does.
   std::optional<Attempt> best() const;
 
   bool tells_progress() const { return !recovered_.progress_line.empty() || recovered_.elapsed_lines > 0; }
@@ -46,7 +47,9 @@ class Attempts {
   double removed_mm3() const;
 
  private:
-  Cleanness judged(const GcodePrint& print) const;
+  Attempt planned(RampartExtent extent) const;
+  Attempt judged(RampartExtent extent) const;
+  void require_same(const GcodePrint& made) const;
   const GcodePrint& source() const { return with_roles_ ? *with_roles_ : print_; }
 
   const GcodePrint& print_;
@@ -56,6 +59,7 @@ class Attempts {
   Config config_;
   std::optional<GcodePrint> with_roles_;  // where the file tells none
   RecoveredPrint recovered_;
+  Scene scene_;
   RemovedFilament removed_;
 };
 

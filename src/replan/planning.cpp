@@ -13,28 +13,16 @@
 #include "model/ini.hpp"
 #include "model/reach.hpp"
 #include "plan/planner.hpp"
-#include "printed/printed_layer.hpp"
-#include "printed/regions.hpp"
-#include "printed/zones.hpp"
 #include "protection.hpp"
-#include "replan/closed_runs.hpp"
 #include "replan/columns.hpp"
 #include "replan/cura.hpp"
 #include "replan/file_parts.hpp"
-#include "replan/kept_shield.hpp"
 #include "replan/leads.hpp"
 #include "replan/staged_layer.hpp"
 #include "replan/walled_layers.hpp"
-#include "toolpath/roads.hpp"
 
 namespace cleancolor {
 namespace {
-
-constexpr double detail_mm = 0.02;  // of recovered regions
-constexpr double same_width_mm = 0.02;
-constexpr double same_speed = 0.02;        // share
-constexpr double crack_mm = 0.05;          // between two colours is no air
-constexpr std::size_t depth_samples = 16;  // places of a loop that are asked how deep it lies
 
 struct RefusedOption {
   std::string_view key;
@@ -49,137 +37,6 @@ constexpr RefusedOption refused_options[] = {
     {"infill_first", "infill before perimeters is not re-planned yet; switch it off in the slicer"},
     {"ironing", "ironing is not re-planned yet; switch it off in the slicer"},
 };
-
-/// 0 along the border of its zone, 1 the next loop inside, ...
-int depth_of(const Path& path, const Zone* zone) {
-  if (!std::ranges::all_of(path.stretches, [](const Stretch& s) { return is_wall(s.road.role); })) return fill_depth;
-  const auto is_outer = [](const Stretch& s) { return s.road.role == Role::external_perimeter; };
-  if (std::ranges::any_of(path.stretches, is_outer)) return 0;
-  if (zone == nullptr) return 1;
-  std::vector<double> depths;
-  const std::size_t step = std::max<std::size_t>(1, path.points.size() / depth_samples);
-  for (std::size_t i = 0; i < path.points.size(); i += step)
-    depths.push_back(border_distance_mm(zone->region, path.points[i]));
-  std::ranges::nth_element(depths, depths.begin() + std::ptrdiff_t(depths.size() / 2));
-  const double spacing = road_spacing_mm(path.road().width_mm, path.road().height_mm);
-  const double inside = depths[depths.size() / 2] - path.road().width_mm / 2;
-  const bool overhangs =
-      std::ranges::all_of(path.stretches, [](const Stretch& s) { return s.road.role == Role::overhang_perimeter; });
-  return std::clamp(int(std::lround(inside / std::max(spacing, 0.05))), overhangs ? 0 : 1, fill_depth - 1);
-}
-
-/// Everything that stages of a print are planned from.
-struct Scene {
-  Slices slices;                         // of the part
-  Slices around;                         // the same with skirt and brim: what a rampart stands around
-  std::vector<Layer> layers;             // their paths as in the file
-  std::vector<std::vector<Stop>> stops;  // of each layer
-  bool has_shield = false;
-};
-
-/// Two points, so that it can be planned; where it goes on from.
-Path path_of_stop(FilePoint at, int tool, int source, double height_mm, const AuditMachine& machine) {
-  constexpr double width_mm = 0.4;
-  Path path;
-  path.extruder = tool;
-  path.source = source;
-  path.island = -1;
-  path.points = {place_mm(at, tool, machine), place_mm({at.x_um + 1, at.y_um}, tool, machine)};
-  path.stretches.push_back({0, {Role::custom, width_mm, height_mm, width_mm * height_mm, 10}});
-  return path;
-}
-
-void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
-                   bool keeps_seams, Scene& scene) {
-  const RecoveredLayer& layer = recovered.layers[k];
-  std::vector<LaidRoad> roads;
-  Polygons auxiliary;
-  std::vector<LaidRoad> extra;
-  for (const RecoveredRun& run : layer.runs) {
-    FilePoint from = run.from;
-    for (const RunRoad& road : run.roads) {
-      const GcodeMove& move = print.moves[road.move];
-      const LaidRoad laid{place_mm(from, run.tool, machine), place_mm(road.to, run.tool, machine), road_width_mm(move),
-                          run.tool, move.role};
-      (is_auxiliary(move.role) ? extra : roads).push_back(laid);
-      from = road.to;
-    }
-  }
-  std::vector<Polygons> regions;
-  Polygons outline;
-  for (int n = 0; n < int(machine.nozzles.size()); ++n) {
-    regions.push_back(simplified(region(roads, n, detail_mm), detail_mm / 2));
-    append(outline, regions.back());
-  }
-  outline = simplified(closed(united(outline), crack_mm), detail_mm / 2);
-  scene.slices.regions[k] = packed(regions);
-  scene.slices.outlines[k] = outline;
-  scene.around.regions[k] = scene.slices.regions[k];
-  scene.around.outlines[k] = extra.empty() ? outline : united(outline, filled(plastic(extra, detail_mm)));
-
-  const std::vector<Zone> zones = zones_of(regions);
-  Layer& planned = scene.layers[k];
-  planned.index = int(k);
-  planned.print_z_mm = layer.z_mm;
-  planned.height_mm = layer.height_mm;
-  for (std::size_t i = 0; i < layer.runs.size(); ++i) {
-    const RecoveredRun& run = layer.runs[i];
-    if (run.fixed) {
-      planned.paths.push_back(path_of_stop(run.from, run.tool, int(i), layer.height_mm, machine));
-      const FixedLines& fixed = *run.fixed;
-      const int after = fixed.tool_after;
-      Path leaving = path_of_stop(fixed.to, fixed.lays ? after : run.tool, -1, layer.height_mm, machine);
-      leaving.extruder = after;
-      // A change alone leaves the carriage where it is.
-      if (!fixed.lays)
-        for (Vec2& p : leaving.points) p = p - nozzle_offset_mm(machine, run.tool) + nozzle_offset_mm(machine, after);
-      leaving.points.pop_back();
-      scene.stops[k].push_back({int(i), fixed.lays, std::move(leaving)});
-      continue;
-    }
-    Path path = path_of(layer.runs[i], int(i), layer.height_mm, print, machine);
-    if (path.road().role == Role::wipe_tower) {  // it stays where it is in the order
-      Path leaving = path;
-      leaving.points = {path.points.back()};
-      leaving.stretches.resize(1);
-      scene.stops[k].push_back({int(i), true, std::move(leaving)});
-    }
-    if (keeps_seams) path.closed = false;
-    path.island = zone_of(path, zones);
-    path.depth = depth_of(path, path.island >= 0 ? &zones[std::size_t(path.island)] : nullptr);
-    // Part plastic that lies in no zone waits for nothing, and nothing for it.
-    if (path.island < 0 && !is_auxiliary(path.road().role)) path.island = int(zones.size() + i);
-    planned.paths.push_back(std::move(path));
-  }
-}
-
-Scene scene_of(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine, bool keeps_seams,
-               int threads) {
-  Scene scene;
-  const std::size_t count = recovered.layers.size();
-  for (Slices* slices : {&scene.slices, &scene.around}) {
-    slices->regions.resize(count);
-    slices->outlines.resize(count);
-    for (const RecoveredLayer& layer : recovered.layers)
-      slices->slabs.push_back({.print_z_mm = layer.z_mm, .height_mm = std::clamp(layer.height_mm, 0.01, 5.)});
-  }
-  scene.layers.resize(count);
-  scene.stops.resize(count);
-  parallel_for(int(count), threads,
-               [&](int k) { recover_layer(std::size_t(k), recovered, print, machine, keeps_seams, scene); });
-  const auto shield = shield_runs(recovered, print);
-  scene.has_shield = !shield.empty();
-  for (std::size_t k = 0; k < shield.size(); ++k)
-    for (const std::size_t i : shield[k]) scene.layers[k].paths[i] = as_wall(std::move(scene.layers[k].paths[i]));
-  return scene;
-}
-
-void require_part(const Scene& scene, const GcodePrint& print) {
-  for (std::size_t k = 0; k < scene.layers.size(); ++k)
-    if (scene.slices.outlines[k].empty())
-      throw Error(
-          fmt::format("{}: layer {} has nothing of the part; such files are not re-planned yet", print.name, k + 1));
-}
 
 /// As the writer would print it: never faster than the filament allows.
 void limit_speeds(std::vector<Path>& paths, const Config& config) {
@@ -275,10 +132,11 @@ double columns_apart_mm(const Config& config) {
 }
 
 /// What slicers do without colour protection, to compare.
-std::vector<Layer> in_plain_order(Scene& scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
+std::vector<Layer> in_plain_order(const Scene& scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
                                   const Config& config) {
   OrderState state{.extruder = recovered.layers.front().runs.front().tool, .at = {}, .seams = {}};
-  for (Layer& layer : scene.layers) {
+  std::vector<Layer> layers = scene.layers;
+  for (Layer& layer : layers) {
     const std::vector<Stop>& stops = scene.stops[std::size_t(layer.index)];
     std::vector<Layer> parts = parts_of(with_walls(std::move(layer), rampart, recovered, config), stops);
     layer = parts.front();
@@ -289,7 +147,7 @@ std::vector<Layer> in_plain_order(Scene& scene, const PrintedRampart& rampart, c
       std::ranges::move(part.paths, std::back_inserter(layer.paths));
     }
   }
-  return std::move(scene.layers);
+  return layers;
 }
 
 }  // namespace
@@ -336,76 +194,37 @@ Config planning_config(const GcodePrint& print, const AuditMachine& machine, con
   return config;
 }
 
-Vec2 place_mm(FilePoint at, int tool, const AuditMachine& machine) {
-  return plastic_mm(machine, {double(at.x_um) / 1000, double(at.y_um) / 1000}, tool);
-}
-
-Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodePrint& print,
-             const AuditMachine& machine) {
-  Path path;
-  path.extruder = run.tool;
-  path.source = source;
-  path.island = -1;
-  path.points.push_back(place_mm(run.from, run.tool, machine));
-  const double filament_mm2 = filament_area_mm2(machine, run.tool);
-  for (const RunRoad& r : run.roads) {
-    const GcodeMove& move = print.moves[r.move];
-    const Vec2 to = place_mm(r.to, run.tool, machine);
-    const double mm = distance(path.points.back(), to);
-    const Road road{.role = move.role,
-                    .width_mm = road_width_mm(move),
-                    .height_mm = move.height_mm > 0 ? double(move.height_mm) : height_mm,
-                    .area_mm2 = mm > 0 ? double(r.filament_e5) * 1e-5 * filament_mm2 / mm : 0,
-                    .speed_mm_s = std::max(1., r.feed_mm_min / 60)};
-    const auto is_same = [&](const Road& other) {
-      return other.role == road.role && std::abs(other.width_mm - road.width_mm) <= same_width_mm &&
-             std::abs(other.speed_mm_s - road.speed_mm_s) <= same_speed * road.speed_mm_s;
-    };
-    if (path.stretches.empty() || !is_same(path.stretches.back().road))
-      path.stretches.push_back({std::uint32_t(path.points.size() - 1), road});
-    path.points.push_back(to);
-  }
-  const double gap = distance(path.points.front(), path.points.back());
-  const bool walls = std::ranges::all_of(path.stretches, [](const Stretch& s) { return is_wall(s.road.role); });
-  const bool is_loop = comes_back(gap, length_mm(path), path.road().width_mm);
-  if (!walls || !is_loop || path.points.size() < 4) return path;
-  path.closed = true;
-  if (gap == 0) path.points.pop_back();
-  return path;
-}
-
-ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
-                               Config config, const ReplanOptions& options, const Progress& progress) {
-  progress.advance("regions", 0);
-  Scene scene = scene_of(recovered, print, machine, options.keeps_seams, options.threads);
-  require_part(scene, print);
+ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recovered, const GcodePrint& print,
+                               const AuditMachine& machine, Config config, const ReplanOptions& options,
+                               const Progress& progress) {
   if (!options.plans) {
-    for (std::size_t k = 0; k < scene.layers.size(); ++k)
-      for (std::size_t i = 0; i < scene.layers[k].paths.size(); ++i) {
-        Path& path = scene.layers[k].paths[i];
+    std::vector<Layer> layers = scene.layers;
+    for (std::size_t k = 0; k < layers.size(); ++k)
+      for (std::size_t i = 0; i < layers[k].paths.size(); ++i) {
+        Path& path = layers[k].paths[i];
         path.closed = false;  // begun where the file begins it
         for (const FilePoint p : recovered.layers[k].runs[i].way)
           path.travel.push_back(place_mm(p, path.extruder, machine));
       }
-    return {std::move(scene.layers)};
+    return {std::move(layers)};
   }
   const Use use(scene.slices);
   if (use.extruders.size() < 2)
     throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));
   const double apart_mm = columns_apart_mm(config);
-  scene.around = without_columns_beside(scene.around, scene.slices, apart_mm);
-  const bool stands_apart = columns(scene.around, apart_mm).size() > 1;
+  Slices around = without_columns_beside(scene.around, scene.slices, apart_mm);
+  const bool stands_apart = columns(around, apart_mm).size() > 1;
   std::optional<Slices> column;
-  if (options.rampart == RampartExtent::column) column = shortest_column(scene.around, apart_mm);
-  if (column) scene.around = std::move(*column);
+  if (options.rampart == RampartExtent::column) column = shortest_column(around, apart_mm);
+  if (column) around = std::move(*column);
   if (options.rampart != RampartExtent::all && !column) config.rampart = RampartShape::off;
   std::optional<PrintedRampart> rampart;
   try {
-    rampart.emplace(scene.around, use, config, options.threads);
+    rampart.emplace(around, use, config, options.threads);
   } catch (const Error& fault) {
     progress.warn(fmt::format("{}: {}; it is re-planned without a rampart", print.name, fault.what()));
     config.rampart = RampartShape::off;
-    rampart.emplace(scene.around, use, config, options.threads);
+    rampart.emplace(around, use, config, options.threads);
   }
   std::vector<double> height_mm;
   for (const Slab& slab : scene.slices.slabs) height_mm.push_back(slab.height_mm);
@@ -425,14 +244,14 @@ ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint
   for (int e = 0; e < int(config.extruders.size()); ++e) leads.hop.push_back(hop_time(config, e));
   const int walled = walled_layers(scene.layers, leads.ooze);
   const auto plan = [&](int k) {
-    Layer layer = std::move(scene.layers[std::size_t(k)]);
+    Layer layer = scene.layers[std::size_t(k)];
     if (k < walled) layer = with_walls(std::move(layer), *rampart, recovered, config);
-    PlanScene around = plan_scene(scene.slices, use, config, *rampart, k);
-    if (k >= walled) around.site = {};
-    if (!around.site.part.empty()) around.site.part = scene.slices.outlines[std::size_t(k)];
-    if (scene.has_shield) around.site = {use.hot(k, config), scene.slices.outlines[std::size_t(k)]};
+    PlanScene own = plan_scene(scene.slices, use, config, *rampart, k);
+    if (k >= walled) own.site = {};
+    if (!own.site.part.empty()) own.site.part = scene.slices.outlines[std::size_t(k)];
+    if (scene.has_shield) own.site = {use.hot(k, config), scene.slices.outlines[std::size_t(k)]};
     planned[std::size_t(k)].emplace(std::move(layer), first_of_layer[std::size_t(k)], scene.stops[std::size_t(k)],
-                                    config, around, visibility);
+                                    config, own, visibility);
   };
   const auto take = [&](int k) {
     if (progress.interrupted()) throw Error("interrupted");

@@ -70,7 +70,7 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   result.has_rampart = made->has_rampart;
   if (judges) result.gain = Gain{made->before, made->cleanness};
   result.removed_mm3 = attempts.removed_mm3();
-  result.old_time_s = timeline(print, machine).print_time_s;
+  result.old_time_s = judges ? made->before.time_s : timeline(print, machine).print_time_s;
   const Timeline time = timeline(made->print, machine);
   result.time_s = time.print_time_s;
   const double told_share =

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <tuple>
+#include <utility>
 #include <vector>
+
+#include "base/parallel.hpp"
 
 namespace cleancolor {
 namespace {
@@ -43,42 +45,49 @@ double cell_size_mm(const GcodePrint& print) {
   return 0.4 * std::max(1., sum_mm / (4e5 + 100 * roads));
 }
 
-/// Length of road of each tool in each cell and layer height, in cells that roads pass through their middles.
-using Cell = std::tuple<int, std::int64_t, std::int64_t, std::int64_t>;
-std::vector<std::pair<Cell, double>> cells(const GcodePrint& print, const std::set<Role>& without, double cell_mm) {
+/// Length of road in each cell of one tool and layer height, in cells that roads pass through their middles; ascending.
+using Cell = std::pair<std::int64_t, std::int64_t>;
+using LayerCells = std::vector<std::pair<Cell, double>>;
+using Cells = std::map<std::pair<int, std::int64_t>, LayerCells>;
+
+void join_same(LayerCells& cells) {
+  std::ranges::sort(cells);
+  std::size_t kept = 0;
+  for (const auto& [cell, mm] : cells) {
+    if (kept > 0 && cells[kept - 1].first == cell)
+      cells[kept - 1].second += mm;
+    else
+      cells[kept++] = {cell, mm};
+  }
+  cells.resize(kept);
+}
+
+Cells cells(const GcodePrint& print, const std::set<Role>& without, double cell_mm) {
   const double step_mm = cell_mm / 4;
-  std::vector<std::pair<Cell, double>> all;
+  Cells all;
   for (std::size_t i = 1; i < print.moves.size(); ++i) {
     if (!lays_plastic(print, i) || !is_kept(print.moves[i])) continue;
     if (without.contains(print.moves[i].role)) continue;
     const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
+    LayerCells& layer = all[{print.moves[i].feeds, std::llround(b.z * 1e3)}];
     const double length = way_mm(print, i);
     const int steps = int(length / step_mm) + 1;
     for (int s = 0; s < steps; ++s) {
       const double t = (s + 0.5) / steps;
-      const Cell cell{print.moves[i].feeds, std::llround(b.z * 1e3),
-                      std::int64_t(std::floor((a.x + (b.x - a.x) * t) / cell_mm)),
+      const Cell cell{std::int64_t(std::floor((a.x + (b.x - a.x) * t) / cell_mm)),
                       std::int64_t(std::floor((a.y + (b.y - a.y) * t) / cell_mm))};
-      if (!all.empty() && all.back().first == cell)
-        all.back().second += length / steps;
+      if (!layer.empty() && layer.back().first == cell)
+        layer.back().second += length / steps;
       else
-        all.emplace_back(cell, length / steps);
+        layer.emplace_back(cell, length / steps);
     }
   }
-  std::ranges::sort(all);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (kept > 0 && all[kept - 1].first == all[i].first)
-      all[kept - 1].second += all[i].second;
-    else
-      all[kept++] = all[i];
-  }
-  all.resize(kept);
+  for (auto& [place, layer] : all) join_same(layer);
   return all;
 }
 
 /// How much road the cells have that the others do not have.
-double beyond_mm(const std::vector<std::pair<Cell, double>>& all, const std::vector<std::pair<Cell, double>>& others) {
+double beyond_mm(const LayerCells& all, const LayerCells& others) {
   double sum = 0;
   auto other = others.begin();
   for (const auto& [cell, mm] : all) {
@@ -89,10 +98,17 @@ double beyond_mm(const std::vector<std::pair<Cell, double>>& all, const std::vec
   return sum;
 }
 
-double sum_mm(const std::vector<std::pair<Cell, double>>& all) {
+double beyond_mm(const Cells& all, const Cells& others) {
   double sum = 0;
-  for (const auto& entry : all) sum += entry.second;
+  for (const auto& [place, layer] : all) {
+    const auto found = others.find(place);
+    sum += beyond_mm(layer, found != others.end() ? found->second : LayerCells{});
+  }
   return sum;
+}
+
+double sum_mm(const Cells& all) {
+  return beyond_mm(all, {});
 }
 
 /// The line of a road that is laid while filament is drawn back; nothing where there is none.
@@ -110,12 +126,12 @@ std::optional<std::size_t> starved_line(const GcodePrint& print) {
 }  // namespace
 
 std::optional<std::string> difference(const GcodePrint& before, const GcodePrint& after, const AuditMachine& machine,
-                                      const RemovedFilament& removed) {
+                                      const ComparisonOptions& options) {
   if (after.tools > int(machine.nozzles.size())) return "another tool is in use";
   auto old_mm = filament_mm(before);
   const auto new_mm = filament_mm(after);
   std::set<Role> without;
-  for (const auto& [what, mm] : removed) {
+  for (const auto& [what, mm] : options.removed) {
     old_mm[what] -= mm;
     without.insert(what.second);
   }
@@ -129,7 +145,9 @@ std::optional<std::string> difference(const GcodePrint& before, const GcodePrint
   for (const auto& [what, mm] : new_mm)
     if (!old_mm.contains(what)) return fmt::format("there is {} that was not there", role_name(what.second));
   const double cell_mm = cell_size_mm(before);
-  const auto old_cells = cells(before, without, cell_mm), new_cells = cells(after, without, cell_mm);
+  Cells old_cells, new_cells;
+  parallel_for(2, options.threads,
+               [&](int i) { (i == 0 ? old_cells : new_cells) = cells(i == 0 ? before : after, without, cell_mm); });
   const double all = sum_mm(old_cells), lost = beyond_mm(old_cells, new_cells), added = beyond_mm(new_cells, old_cells);
   if (std::max(lost, added) > seam_share * all)
     return fmt::format("{:.1f} mm of road are missing and {:.1f} mm were not there, of {:.0f} mm", lost, added, all);

@@ -16,8 +16,13 @@
 
 namespace cleancolor {
 
+struct ComparisonOptions {
+  RemovedFilament removed = {};  // from the one before
+  int threads = 1;               // two at most are of use
+};
+
 /// What differs, in words; nothing where they are the same.  Requires: one machine for both.
 std::optional<std::string> difference(const GcodePrint& before, const GcodePrint& after, const AuditMachine& machine,
-                                      const RemovedFilament& removed = {});
+                                      const ComparisonOptions& options = {});
 
 }  // namespace cleancolor

@@ -13,7 +13,7 @@
 #include "gcode/polyline.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/emitter.hpp"
-#include "replan/planning.hpp"
+#include "replan/scene.hpp"
 
 namespace cleancolor {
 namespace {

@@ -105,6 +105,21 @@ TEST(JoinedLoops, NeedTheInnerLoopNearby) {
   EXPECT_EQ(with_inner_loops(loops, true).size(), 1U);
 }
 
+TEST(JoinedLoops, HaveTheirJointsWhereverTheInnerLoopBegins) {
+  const std::vector<Path> loops = two_loops(rectangle({0, 0}, {10, 6}).front());
+  Path inner = loops[0];
+  inner.stretches.push_back({1, inner.road()});
+  inner.stretches.front().road.width_mm = 0.02;
+  for (std::size_t k = 0; k < inner.points.size(); ++k) {
+    const std::vector<Path> paths = with_inner_loops({started_at(inner, k), loops[1]}, true);
+    ASSERT_EQ(paths.size(), 1U) << k;
+    for (std::size_t i = 0; i < loops[1].points.size(); ++i) {
+      const Path outer = inner_aligned(started_at(paths.front(), i));
+      EXPECT_TRUE(joint_at(outer, outer.start())) << k << ", " << i;
+    }
+  }
+}
+
 TEST(JoinedLoops, LeaveTheOtherPathsInTheirOrder) {
   std::vector<Path> loops = two_loops(rectangle({0, 0}, {10, 6}).front());
   const Path fill = drawn_path(0, {{2, 2}, {8, 4}}, false), wall = drawn_path(0, {{-5, 0}, {-5, 9}}, false, 0, -1);
