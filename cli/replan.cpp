@@ -106,7 +106,9 @@ void run(const ReplanCommand& command, std::ostream& out, std::ostream& err, boo
   std::vector<std::filesystem::path> inputs{command.file};
   if (command.printer.ends_with(".toml")) inputs.emplace_back(command.printer);
   require_separate_files(inputs, {{"output", command.output}});
-  Console console(err, {.terminal = err_is_terminal, .quiet = command.quiet});
+  // Slicers show what a script that fails has said: of ours the reason alone.
+  const bool quiet = command.quiet || (command.post_process && !err_is_terminal);
+  Console console(err, {.terminal = err_is_terminal, .quiet = quiet});
   try {
     replan(command, console, out);
   } catch (const SystemError&) {

@@ -26,7 +26,9 @@ TEST(ReplanProgram, WritesAFileAndSaysWhatItTakes) {
 TEST(ReplanProgram, EditsInPlaceAsAPostProcessingScriptDoes) {
   const TestFolder folder;
   folder.file("in.gcode.pp", sliced());
-  EXPECT_EQ(run(folder, "replan --post-process in.gcode.pp").exit_code, 0);
+  const Outcome done = run(folder, "replan --post-process in.gcode.pp");
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_EQ(done.err, "");  // slicers show it
   const std::string once = file_text(folder.path("in.gcode.pp"));
   EXPECT_NE(once, sliced());
   const Outcome again = run(folder, "replan --post-process in.gcode.pp");
