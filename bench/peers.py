@@ -59,12 +59,13 @@ def kept(name, slicer, variant):
     return KEPT / f"{name}.{slicer}.{variant}.gcode"
 
 
-def slice_with_peer(name, slicer, variant, output):
+def slice_with_peer(name, slicer, variant, output, **settings):
+    """settings: what the scripts of PEERS take from their environment."""
     if not shutil.which(PROGRAMS[slicer]):
         raise RuntimeError(f"{PROGRAMS[slicer]} is not installed; run scripts/setup peers")
     unfinished = output.with_name("unfinished-" + output.name)  # an interrupted run leaves nothing that looks whole
     log = subprocess.run(["bash", PEERS / f"slice-{slicer}.sh", *models.stl_pair(name), unfinished, variant],
-                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env={"OFFSET": "33,0", **os.environ})
+                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env={"OFFSET": "33,0", **os.environ, **settings})
     if log.returncode != 0 or not unfinished.exists():
         raise RuntimeError(f"{slicer} {variant} does not slice {name}:\n{log.stdout[-1500:]}")
     unfinished.rename(output)

@@ -15,9 +15,10 @@ import time
 from pathlib import Path
 
 import models
+from compare import timed
 from judge import audited_once, figure, two_at_a_time
 from markdown import replace_between_markers
-from peers import OFFSETS, VARIANTS, require_shared, sliced
+from peers import OFFSETS, VARIANTS, kept, require_shared, slice_with_peer, sliced
 
 DOCUMENT = models.ROOT / "docs" / "replan.md"
 SLICERS = {"prusa": "PrusaSlicer", "slic3r": "Slic3r", "cura": "CuraEngine"}
@@ -33,6 +34,9 @@ AGAINST_OOZE = [  # slicer, variant, the option that removes it
     ("Cura's ooze shield", "cura", "shield", "--remove-shield"),
     ("Cura's prime tower", "cura", "tower", "--remove-tower"),
 ]
+# Plain files of 20 MB by finer layers: slicer, model, mm of a layer; and the wall time that they may take on two cores.
+LARGE = [("prusa", "dragon-heart", 0.073), ("prusa", "spot-cow", 0.066), ("cura", "dragon-heart", 0.092)]
+LARGE_S = 10
 AUXILIARY = ("skirt", "brim", "tower", "custom", "wipe")
 NEAR_MM = 0.003  # ends of roads are rounded to 0.001 mm
 SEAM_GAP_MM = 0.3  # that slicers leave where a loop ends: PrusaSlicer 0.06, Cura up to 0.27
@@ -164,15 +168,44 @@ def kept_row(program, title, slicer, variant, remove):
     return f"| {title} | " + " | ".join(" / ".join(f"{value:.1f}" for value in cell) for cell in cells) + f" | {minutes} |"
 
 
+def speed_row(program, slicer, name, layer_mm):
+    """One row on a large file, and whether it takes too long."""
+    gcode = kept(name, slicer, f"plain-{layer_mm:g}mm")
+    gcode.parent.mkdir(parents=True, exist_ok=True)
+    if not gcode.exists():
+        slice_with_peer(name, slicer, "plain", gcode, LAYER=f"{layer_mm:g}")
+    output = gcode.with_name(gcode.name.replace(".gcode", ".replanned.gcode"))
+    run = timed([program, "replan", gcode, "-o", output, "--nozzle-offset", OFFSETS, "--offsets-in", "slicer", "--quiet",
+                 "--threads", "2"])
+    row = (f"| {name}, {SLICERS[slicer]}, {layer_mm:g} mm | {gcode.stat().st_size / 1e6:.1f} | {run['wall_s']:.1f} | "
+           f"{run['cpu_s']:.1f} | {run['memory_mb']:.0f} |")
+    return row, run["wall_s"] > LARGE_S
+
+
+def speed(program):
+    """Prints how long large files take; whether one takes too long."""
+    print("| file | MB | wall time, s | CPU s | peak MB |", "|---|---|---|---|---|", sep="\n")
+    late = False
+    for large in LARGE:
+        row, is_late = speed_row(program, *large)
+        print(row, flush=True)
+        late = late or is_late
+    print(f"some take more than {LARGE_S} s" if late else f"none takes more than {LARGE_S} s")
+    return late
+
+
 def main():
     parser = argparse.ArgumentParser(prog="scripts/bench replan", description=__doc__)
     parser.add_argument("--models", default=",".join(models.PAIRS), help="comma-separated, of: " + ", ".join(models.PAIRS))
     parser.add_argument("--program", type=Path, help="our program (default: the release build, made first)")
     parser.add_argument("--every-variant", action="store_true", help="all that ../shared/peers can make, not only plain files")
+    parser.add_argument("--speed", action="store_true", help=f"only how long files of 20 MB take; at most {LARGE_S} s")
     parser.add_argument("--write", action="store_true", help="write the tables of docs/replan.md")
     options = parser.parse_args()
     models.require(options.models, models.PAIRS, "scripts/bench replan")
     require_shared("scripts/bench replan")
+    if options.speed:
+        sys.exit(speed(options.program))
     rows = [(options.program, name, slicer, variant) for slicer, variants in VARIANTS.items()
             for variant in (variants if options.every_variant else variants[:1]) for name in options.models.split(",")]
     table = ["| file | smears, mm3, before / after | holes, mm3 | time, min | seconds |", "|---|---|---|---|---|"]

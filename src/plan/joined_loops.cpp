@@ -18,11 +18,8 @@ constexpr double most_trimmed = 1 / 3.;                      // of the inner loo
 constexpr double longest_lead = 0.75, shortest_lead = 0.25;  // in widths of the wall
 constexpr double lead_out_share = 0.5;                       // of the wall's plastic, where it has closed already
 
-/// Wherever the inner loop begins: its widest road counts.
 double spacing_mm(const Path& outer) {
-  const auto width_mm = [](const Stretch& s) { return s.road.width_mm; };
-  const Stretch widest = std::ranges::max(outer.inner.back().stretches, {}, width_mm);
-  return (outer.road().width_mm + widest.road.width_mm) / 2;
+  return (outer.road().width_mm + outer.inner.back().road().width_mm) / 2;
 }
 
 /// A closed path's points from so many mm after its start to so many mm before its end.

@@ -40,22 +40,22 @@ void add_entries(const Path& path, Vec2 offset_mm, const TravelCost& cost, const
   int taken = 0;
   Entry best;
   double best_cost = 0;
-  const auto close_stretch = [&] {
-    const bool any = taken > 0;
-    taken = 0;
-    if (!any) return;
-    Vec2 at_mm = best.at_mm;
-    if (!path.inner.empty()) {
-      const auto joint = joint_at(path, at_mm);
-      if (!joint) return;
-      at_mm = joint->at_mm;
-    }
-    best.node = nodes.add(at_mm - offset_mm);
+  const auto add_best = [&](Vec2 node_mm) {
+    best.node = nodes.add(node_mm - offset_mm);
     if (begins_outer_wall(path)) {
       best.ahead = visibility_ahead(path, best.segment, best.at_mm, cost.map());
       best.lead_mm = options.leads && path.source < 0 ? lead_mm(path, best.segment, best.at_mm, loops) : 0;
     }
     entries.push_back(best);
+  };
+  const auto close_stretch = [&] {
+    const bool any = taken > 0;
+    taken = 0;
+    if (!any) return;
+    if (path.inner.empty())
+      add_best(best.at_mm);
+    else if (const auto joint = joint_at(path, best.at_mm))
+      add_best(joint->at_mm);
   };
   for (std::size_t i = 0; i < path.segments(); ++i) {
     const Vec2 a = path.points[i], b = path.points[(i + 1) % path.points.size()];
@@ -75,6 +75,10 @@ void add_entries(const Path& path, Vec2 offset_mm, const TravelCost& cost, const
     taken = 1;
     close_stretch();
   }
+  if (!entries.empty()) return;
+  // Nor has any corner, where the inner loop is thin since it begins beside the start of the outer one.
+  best = {.node = 0, .segment = 0, .at_mm = path.start()};
+  add_best(path.inner.back().start());
 }
 
 struct Cell {

@@ -105,19 +105,20 @@ TEST(JoinedLoops, NeedTheInnerLoopNearby) {
   EXPECT_EQ(with_inner_loops(loops, true).size(), 1U);
 }
 
-TEST(JoinedLoops, HaveTheirJointsWhereverTheInnerLoopBegins) {
+TEST(JoinedLoops, CanBeEnteredWhereverTheInnerOneIsThin) {
+  const DrawnLayer layer({rectangle({0, 0}, {10, 6}), {}});
+  const LayerMap map = layer.map();
+  const TravelCost cost(map, {{0, {}, {}}}, {});
   const std::vector<Path> loops = two_loops(rectangle({0, 0}, {10, 6}).front());
-  Path inner = loops[0];
-  inner.stretches.push_back({1, inner.road()});
-  inner.stretches.front().road.width_mm = 0.02;
-  for (std::size_t k = 0; k < inner.points.size(); ++k) {
-    const std::vector<Path> paths = with_inner_loops({started_at(inner, k), loops[1]}, true);
-    ASSERT_EQ(paths.size(), 1U) << k;
-    for (std::size_t i = 0; i < loops[1].points.size(); ++i) {
-      const Path outer = inner_aligned(started_at(paths.front(), i));
-      EXPECT_TRUE(joint_at(outer, outer.start())) << k << ", " << i;
+  for (std::size_t thin = 0; thin < 4; ++thin)
+    for (std::size_t start = 0; start < 4; ++start) {
+      Path inner = started_at(loops[0], thin);
+      inner.stretches.push_back({1, inner.road()});
+      inner.stretches.front().road.width_mm = 0.02;
+      const std::vector<Path> paths = with_inner_loops({started_at(inner, start), loops[1]}, true);
+      for (const std::vector<Entry>& entries : roadmap(paths, cost).entries)
+        EXPECT_FALSE(entries.empty()) << thin << ", " << start;
     }
-  }
 }
 
 TEST(JoinedLoops, LeaveTheOtherPathsInTheirOrder) {
