@@ -182,14 +182,18 @@ def speed_row(program, slicer, name, layer_mm):
     return row, run["wall_s"] > LARGE_S
 
 
-def speed(program):
+def speed(program, writes):
     """Prints how long large files take; whether one takes too long."""
-    print("| file | MB | wall time, s | CPU s | peak MB |", "|---|---|---|---|---|", sep="\n")
+    table = ["| file | MB | wall time, s | CPU s | peak MB |", "|---|---|---|---|---|"]
     late = False
+    print(*table, sep="\n")
     for large in LARGE:
         row, is_late = speed_row(program, *large)
         print(row, flush=True)
+        table.append(row)
         late = late or is_late
+    if writes:
+        replace_between_markers(DOCUMENT, "scripts/bench replan --speed --write", "\n".join(table) + "\n")
     print(f"some take more than {LARGE_S} s" if late else f"none takes more than {LARGE_S} s")
     return late
 
@@ -205,7 +209,7 @@ def main():
     models.require(options.models, models.PAIRS, "scripts/bench replan")
     require_shared("scripts/bench replan")
     if options.speed:
-        sys.exit(speed(options.program))
+        sys.exit(speed(options.program, options.write))
     rows = [(options.program, name, slicer, variant) for slicer, variants in VARIANTS.items()
             for variant in (variants if options.every_variant else variants[:1]) for name in options.models.split(",")]
     table = ["| file | smears, mm3, before / after | holes, mm3 | time, min | seconds |", "|---|---|---|---|---|"]
