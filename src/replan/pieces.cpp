@@ -7,6 +7,7 @@
 namespace cleancolor {
 namespace {
 
+constexpr double same_radius_mm = 0.05, least_apart_mm = 0.002;  // of an arc's ends
 constexpr double least_arc_um = 50;
 constexpr double step_rad = std::numbers::pi / 18;
 
@@ -36,6 +37,13 @@ Piece straight_where_short(Piece piece) {
 }
 
 }  // namespace
+
+std::optional<RoadArc> arc_of(const GcodeLine& line, Vec2 from_mm, Vec2 to_mm) {
+  const Vec2 center = from_mm + Vec2{line.value_or('I', 0), line.value_or('J', 0)};
+  const bool is_round = std::abs(distance(center, from_mm) - distance(center, to_mm)) <= same_radius_mm;
+  if (!is_round || distance(from_mm, to_mm) < least_apart_mm) return std::nullopt;
+  return RoadArc{{std::llround(center.x * 1e3), std::llround(center.y * 1e3)}, line.number == 2};
+}
 
 double length_um(FilePoint a, FilePoint b) {
   return std::hypot(double(b.x_um - a.x_um), double(b.y_um - a.y_um));

@@ -6,9 +6,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "reader/line.hpp"
 #include "replan/recovered.hpp"
 
 namespace cleancolor {
@@ -21,6 +23,10 @@ struct Piece {
   std::uint32_t state = 0;
   std::optional<RoadArc> arc = {};
 };
+
+/// Of a line G2 or G3 with its centre, between two places of the file in mm; nothing where it is a whole circle, or
+/// none.
+std::optional<RoadArc> arc_of(const GcodeLine& line, Vec2 from_mm, Vec2 to_mm);
 
 double length_um(FilePoint a, FilePoint b);
 double length_um(const Piece& piece);

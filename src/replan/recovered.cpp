@@ -14,12 +14,12 @@
 #include "replan/dialect_words.hpp"
 #include "replan/filament_book.hpp"
 #include "replan/file_parts.hpp"
+#include "replan/pieces.hpp"
 #include "replan/refusals.hpp"
 
 namespace cleancolor {
 namespace {
 
-constexpr double same_radius_mm = 0.05, least_arc_mm = 0.002;
 constexpr std::size_t most_settings = 64;  // that a print is under at once
 
 std::int64_t to_um(double mm) {
@@ -27,11 +27,6 @@ std::int64_t to_um(double mm) {
 }
 std::int64_t to_e5(double mm) {
   return std::llround(mm * 1e5);
-}
-
-/// Whether what goes over from one to the other is two runs all the same: each has its own place in the order.
-bool is_placed_apart(Role a, Role b) {
-  return is_auxiliary(a) != is_auxiliary(b) || (a == Role::ironing) != (b == Role::ironing);
 }
 
 class Recovery {
@@ -329,15 +324,13 @@ class Recovery {
     if (first == move_ || first == 0 || !print_.moves[first].arc || !lays_plastic(print_, first))
       refuse(at_, "an arc that lays no plastic is not re-planned; switch off arcs in the slicer");
     const Vec3 from = print_.moves[first - 1].to_mm, to = print_.moves[move_ - 1].to_mm;
-    const Vec2 begin{from.x, from.y}, end{to.x, to.y};
-    const Vec2 center = begin + Vec2{line_.value_or('I', 0), line_.value_or('J', 0)};
-    const bool is_round = std::abs(distance(center, begin) - distance(center, end)) <= same_radius_mm;
-    if (!is_round || distance(begin, end) < least_arc_mm)
+    const auto arc = arc_of(line_, {from.x, from.y}, {to.x, to.y});
+    if (!arc)
       refuse(at_, "an arc that is a whole circle, or none, is not re-planned; switch off arc fitting in the slicer");
     lay(first, print_.moves[move_ - 1], from);
     RunRoad& road = run().roads.back();
     road.moves = std::uint32_t(move_ - first);
-    road.arc = RoadArc{{to_um(center.x), to_um(center.y)}, line_.number == 2};
+    road.arc = arc;
     double filament_mm = 0;
     for (std::size_t i = first; i < move_; ++i) filament_mm += print_.moves[i].filament_mm;
     road.filament_e5 = to_e5(filament_mm);
@@ -349,7 +342,9 @@ class Recovery {
     if (move.role == Role::wipe_tower) r_.keeps_tools = true;
     require_pushed_forward();
     const Role before = breaks_ ? move.role : print_.moves[run().roads.back().move].role;
-    if (breaks_ || is_placed_apart(before, move.role)) close_gap(from);
+    // Supports and ironing have their own place in the order.
+    const bool differ = is_auxiliary(before) != is_auxiliary(move.role);
+    if (breaks_ || differ || (before == Role::ironing) != (move.role == Role::ironing)) close_gap(from);
     if (r_.layers.empty()) refuse(at_, "a road before the first layer");
     for (const Note& note : gap_) {
       if (note.is_command) refuse(note.offset, "a command in the middle of a road: it cannot be moved");
