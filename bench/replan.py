@@ -18,11 +18,14 @@ import models
 from compare import timed
 from judge import audited_once, figure, two_at_a_time
 from markdown import replace_between_markers
-from peers import OFFSETS, VARIANTS, kept, require_shared, slice_with_peer, sliced
+from peers import ADDED, OFFSETS, VARIANTS, kept, require_shared, slice_with_peer, sliced
 
 DOCUMENT = models.ROOT / "docs" / "replan.md"
 SLICERS = {"prusa": "PrusaSlicer", "slic3r": "Slic3r", "cura": "CuraEngine"}
-# Of plain files: shares of the input's figures, and what is little enough.
+# Models with overhangs, printed with all of ADDED.
+SUPPORTED = ["crystal", "two-color-world-50mm"]
+GOOD = ["plain", "support", "soluble", "raft"]  # ironing begins at many places in sight, and stays as it is
+# Of these files: shares of the input's figures, and what is little enough.
 SMEAR, LITTLE_SMEAR_MM3, HOLES, TIME = 1 / 8, 0.2, 1 / 4, 1.30
 WORSE, HOLE_WEIGHT = 1.02, 4  # of any file, and 0.05 mm3: what docs/replan.md lets pass
 FILAMENT = 1e-4  # of each nozzle and type of road
@@ -41,26 +44,34 @@ AUXILIARY = ("skirt", "brim", "tower", "custom", "wipe")
 NEAR_MM = 0.003  # ends of roads are rounded to 0.001 mm
 SEAM_GAP_MM = 0.3  # that slicers leave where a loop ends: PrusaSlicer 0.06, Cura up to 0.27
 
-WORD = re.compile(r"([XYZE])(-?[0-9.]+)")
+WORD = re.compile(r"([XYZEIJ])(-?[0-9.]+)")
 
 
-def roads(gcode):
-    """{(tool, z): Counter of ((x, y), (x, y))} and {(tool, type): filament, mm} of the part; ends in the file's coordinates."""
-    placed, filament = collections.defaultdict(collections.Counter), collections.Counter()
+def arc(begin, end, to_center, code):
+    """Its centre, and the angle that it goes round."""
+    center = tuple(round(at + by, 3) for at, by in zip(begin, to_center))
+    angles = [math.atan2(y - center[1], x - center[0]) for x, y in (begin, end)]
+    return center, (angles[1] - angles[0] if code == "3" else angles[0] - angles[1]) % (2 * math.pi)
+
+
+def extrusions(gcode):
+    """(tool, type, z, (x, y) from, (x, y) to, filament in mm, arc) of each road of part and supports, in the file's coordinates;
+    arc: (centre, angle in rad), or nothing.
+    """
     at, relative, tool, kind = {"X": 0.0, "Y": 0.0, "Z": 0.0, "E": 0.0}, False, 0, ""
     for line in gcode.read_text(errors="replace").splitlines():
         if line.startswith((";TYPE:", "; TYPE:")):
             kind = line.split(":", 1)[1].lower().replace("unknown", "")
-        elif line.startswith(("G0", "G1")):
+        elif line.startswith(("G0", "G1 ", "G2 ", "G3 ")):
             words = {axis: float(value) for axis, value in WORD.findall(line.split(";", 1)[0])}
             fed = words.get("E", 0.0) - (0.0 if relative or "E" not in words else at["E"])
+            center = words.pop("I", 0.0), words.pop("J", 0.0)
             to = {**at, **words}
             if relative:
                 to["E"] = at["E"] + words.get("E", 0.0)
             ends = (at["X"], at["Y"]), (to["X"], to["Y"])
             if fed > 0 and ends[0] != ends[1] and not any(word in kind for word in AUXILIARY):
-                placed[tool, round(to["Z"], 3)][min(ends), max(ends)] += 1
-                filament[tool, kind] += fed
+                yield tool, kind, round(to["Z"], 3), *ends, fed, arc(*ends, center, line[1]) if line[1] in "23" else None
             at = to
         elif line.startswith("G92"):
             at.update({axis: float(value) for axis, value in WORD.findall(line)})
@@ -68,7 +79,40 @@ def roads(gcode):
             relative = line.startswith("M83")
         elif found := re.match(r"(?:T|M135 T|M108 T)(\d+)", line):
             tool = int(found[1])
-    return placed, filament
+
+
+def roads(gcode):
+    """{(tool, z): Counter of ((x, y), (x, y))}, {(tool, z, centre): mm of arcs} and {(tool, type): filament, mm}"""
+    placed, round_mm, filament = collections.defaultdict(collections.Counter), collections.Counter(), collections.Counter()
+    for tool, kind, z, begin, end, fed, round_about in extrusions(gcode):
+        if round_about:
+            center, angle = round_about
+            round_mm[tool, z, center] += angle * math.dist(center, begin)
+        else:
+            placed[tool, z][min(begin, end), max(begin, end)] += 1
+        filament[tool, kind] += fed
+    return placed, round_mm, filament
+
+
+def order(gcode):
+    """Of each (tool, z): whether all supports come before the part, and the ironing, directed, if it comes last; else nothing."""
+    kinds, ironed = collections.defaultdict(list), collections.defaultdict(list)
+    for tool, kind, z, begin, end, *_ in extrusions(gcode):
+        own = "support" if "support" in kind else "ironing" if kind == "ironing" else "part"
+        if not kinds[tool, z] or kinds[tool, z][-1] != own:
+            kinds[tool, z].append(own)
+        if own == "ironing":
+            ironed[tool, z].append((begin, end))
+    return {place: ("support" not in own[1:], ironed[place] if "ironing" not in own[:-1] else None) for place, own in kinds.items()}
+
+
+def order_faults(before, after):
+    """Sentences on supports that come after the part, and on ironing in another order, where the file has it otherwise."""
+    old, new = order(before), order(after)
+    late = [place for place in old if old[place][0] and not new[place][0]]
+    ironed = [place for place in old if old[place][1] is not None and old[place][1] != new[place][1]]
+    return ([f"nozzle {late[0][0]} prints supports after the part at z {late[0][1]}"] if late else []) + (
+        [f"nozzle {ironed[0][0]} irons otherwise at z {ironed[0][1]}"] if ironed else [])
 
 
 def lies_on(shorter, longer):
@@ -106,7 +150,7 @@ def lost_roads(before, after):
 
 def same_print(before, after):
     """Sentences on what is not the same of the part."""
-    (old_roads, old_filament), (new_roads, new_filament) = roads(before), roads(after)
+    (old_roads, old_arcs, old_filament), (new_roads, new_arcs, new_filament) = roads(before), roads(after)
     faults = []
     for key in old_filament.keys() | new_filament.keys():
         if abs(old_filament[key] - new_filament[key]) > FILAMENT * old_filament[key] + 1e-3:
@@ -114,7 +158,10 @@ def same_print(before, after):
     lost = lost_roads(old_roads, new_roads)
     if lost:
         faults.append(f"{len(lost)} roads differ, the first of nozzle {lost[0][0][0]} at z {lost[0][0][1]}: {lost[0][1]}")
-    return faults
+    bent = [place for place in old_arcs.keys() | new_arcs.keys() if abs(old_arcs[place] - new_arcs[place]) > SEAM_GAP_MM]
+    if bent:
+        faults.append(f"{len(bent)} arcs differ, the first of nozzle {bent[0][0]} at z {bent[0][1]} about {bent[0][2]}")
+    return faults + order_faults(before, after)
 
 
 def replanned(program, gcode, variant, *added):
@@ -143,7 +190,7 @@ def judged_row(program, name, slicer, variant):
     pairs = {key: (figure(old, key), figure(new, key)) for key in ("smear_volume", "hole_volume")}
     minutes = [j["print"]["time_s"] / 60 for j in (old, new)]
     (old_smear, smear), (old_holes, holes) = pairs.values()
-    if variant == "plain" and slicer != "slic3r":  # its files tell no roles
+    if variant in GOOD and slicer != "slic3r":  # its files tell no roles
         if smear > SMEAR * old_smear and smear >= LITTLE_SMEAR_MM3:
             faults.append(f"smears {smear:.2f} of {old_smear:.2f} mm3")
         if holes > HOLES * old_holes:
@@ -212,6 +259,8 @@ def main():
         sys.exit(speed(options.program, options.write))
     rows = [(options.program, name, slicer, variant) for slicer, variants in VARIANTS.items()
             for variant in (variants if options.every_variant else variants[:1]) for name in options.models.split(",")]
+    rows += [(options.program, name, slicer, variant) for slicer, variants in ADDED.items() for variant in variants
+             for name in options.models.split(",") if name in SUPPORTED]
     table = ["| file | smears, mm3, before / after | holes, mm3 | time, min | seconds |", "|---|---|---|---|---|"]
     failures = []
     print(*table, sep="\n")

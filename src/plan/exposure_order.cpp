@@ -67,7 +67,7 @@ class OrderSearch {
  private:
   Item item(const Path& path, const LayerMap& map, std::uint64_t walls) const {
     Item it{.start = {path.start(), path.end()}, .end = {path.end(), path.start()}, .touches = {}};
-    it.open = !path.closed;
+    it.open = !path.closed && !irons(path);
     it.seconds = seconds_of(path);
     if (begins_outer_wall(path)) it.start_visibility = visibility_ahead(path, 0, path.start(), map);
     for (std::size_t k = 0; k < count_; ++k) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "plan/inclusion_order.hpp"
 #include "plan/precedence.hpp"
@@ -40,7 +41,10 @@ class Orderer {
     Islands paths;
     for (Path& path : layer_.paths) {
       std::map<int, std::vector<Path>>& own = paths[path.extruder];
-      (path.road().role == Role::rampart ? walls_[path.extruder] : own[path.island]).push_back(std::move(path));
+      std::vector<Path>& like_it = path.road().role == Role::rampart ? walls_[path.extruder]
+                                   : irons(path)                     ? ironing_[path.extruder]
+                                                                     : own[path.island];
+      like_it.push_back(std::move(path));
     }
     layer_.paths.clear();
     if (prints_by_inclusion(config_)) {
@@ -48,6 +52,7 @@ class Orderer {
     } else {
       print_by_extruder(paths);
     }
+    for (auto& [extruder, all] : ironing_) print_ironing(extruder);
     state_.seams.next_layer();
   }
 
@@ -59,6 +64,7 @@ class Orderer {
       print_bed(paths[extruder]);
       print_walls(extruder);
       print_extruder(extruder, paths[extruder]);
+      print_ironing(extruder);
     }
   }
 
@@ -195,6 +201,15 @@ class Orderer {
     }
   }
 
+  /// As it is given.
+  void print_ironing(int extruder) {
+    for (Path& path : std::exchange(ironing_[extruder], {})) {
+      state_.extruder = extruder;
+      state_.at = path.end();
+      layer_.paths.push_back(std::move(path));
+    }
+  }
+
   void print(Path path) {
     if (path.closed) {
       const auto seed = std::uint32_t(layer_.index) * 7919u + std::uint32_t(layer_.paths.size());
@@ -210,7 +225,7 @@ class Orderer {
   OrderState& state_;
   const Config& config_;
   const RampartSite& site_;
-  std::map<int, std::vector<Path>> walls_;  // by extruder
+  std::map<int, std::vector<Path>> walls_, ironing_;  // by extruder
   WallScene scene_;
 };
 

@@ -5,7 +5,7 @@
 // A layer begins with the extruder that ended the layer below, so that there is about one tool change a layer; the
 // first one with the extruders that are only primed in it. Each extruder prints island by island: perimeters from the
 // inside out (or as Path::depth and external_first say), ring by ring (all loops of a hole, then those of the outline),
-// then fills. It is the baseline that the planner of clean colour is measured against.
+// then fills; ironing last. It is the baseline that the planner of clean colour is measured against.
 //
 // print_order = paper, and planner = paper: from the inside out across colours instead (plan/inclusion_order.hpp), with
 // as many tool changes as that takes; external_perimeters_first does not count then.

@@ -10,6 +10,7 @@
 #include "plan/cleaner_tour.hpp"
 #include "plan/clear_way.hpp"
 #include "plan/joined_loops.hpp"
+#include "plan/precedence.hpp"
 #include "plan/refill.hpp"
 #include "plan/tour.hpp"
 #include "plan/wipe.hpp"
@@ -37,6 +38,7 @@ namespace {
 // Mm of way for each mm of an unwiped nozzle over the part: only where both ends expose it.
 constexpr double exposure_weight = 1e5;
 constexpr double unlimited_mm = 1e12;
+constexpr double forbidden_mm = 1e9;
 constexpr double longest_in_extents = 4;  // of ways around another colour
 
 constexpr double start_slack_mm = 60;
@@ -91,12 +93,13 @@ void PlannedLayer::Run::keep_starts(std::span<const Path> paths, std::span<const
 
 namespace {
 
-/// Open walls are walked from the end from which idle nozzles are wiped first.
+/// Open walls are walked from the end from which idle nozzles are wiped first, ironing as it is given.
 std::function<double(std::size_t, std::uint32_t)> wall_cost(std::span<const Path> paths, const TravelCost& cost,
                                                             const Polygons& part) {
   std::vector<std::array<double, 2>> of_path(paths.size());
   WallScene scene{.idle_mm = {}, .part = part, .standing = {}};
   for (std::size_t k = 0; k < paths.size(); ++k) {
+    if (irons(paths[k])) of_path[k][1] = forbidden_mm;
     if (paths[k].road().role != Role::rampart) continue;
     if (!paths[k].closed) {
       Vec2 own;

@@ -50,7 +50,15 @@ std::vector<int> outer_loops(std::span<const Path> paths) {
 std::vector<std::vector<int>> precedence(std::span<const Path> paths, bool external_first) {
   std::vector<std::vector<int>> before(paths.size());
   std::map<int, std::vector<int>> islands;
-  for (std::size_t i = 0; i < paths.size(); ++i) islands[paths[i].island].push_back(int(i));
+  std::vector<int> ironing;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    (irons(paths[i]) ? ironing : islands[paths[i].island]).push_back(int(i));
+  for (std::size_t k = 0; k < ironing.size(); ++k) {
+    std::vector<int>& own = before[std::size_t(ironing[k])];
+    if (k > 0) own = {ironing[k - 1]};
+    for (std::size_t i = 0; k == 0 && i < paths.size(); ++i)
+      if (!irons(paths[i])) own.push_back(int(i));
+  }
   for (const auto& [island, own] : islands) {
     std::vector<Path> copies;
     for (const int i : own) copies.push_back(paths[std::size_t(i)]);

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "reader/read.hpp"
+#include "replan/cura.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/found_roles.hpp"
 #include "replan/heaters.hpp"
@@ -46,6 +47,7 @@ Attempts::Attempts(const GcodePrint& print, const AuditMachine& machine, const R
       throw Error(fmt::format("{}: it does not say which roads are a shield; slice without it", print.name));
     with_roles_ = with_found_roles(print, machine);
   }
+  if (print.facts.dialect == Dialect::cura) with_roles_ = with_ironing(print);
   recovered_ = recovered_print(source());
   if (request.removes_shield) removed_ = remove_shield(recovered_, source());
   if (request.removes_tower) removed_.merge(remove_tower(recovered_, source()));

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double least_wall_mm = 0.2, most_wall_mm = 2.5;  // what nozzles print
 constexpr double least_retracted_mm = 0.5, most_retracted_mm = 5;
-constexpr double seldom = 0.02;                            // share of what is drawn back
-constexpr double ironing_flow = 0.2, most_ironing = 0.05;  // of skins: share of the usual flow, of the length
+constexpr double seldom = 0.02;       // share of what is drawn back
+constexpr double ironing_flow = 0.3;  // of skins: share of the flow of outer walls
 
 /// Values in steps, each with its weight.
 class Frequent {
@@ -26,14 +26,6 @@ class Frequent {
 
   void add(double value, double weight = 1) { weights_[std::llround(value / step_)] += weight; }
   bool empty() const { return weights_.empty(); }
-  double share_below(double value) const {
-    double all = 0, below = 0;
-    for (const auto& [step, weight] : weights_) {
-      all += weight;
-      below += double(step) * step_ < value ? weight : 0;
-    }
-    return all > 0 ? below / all : 0;
-  }
   double value_or(double otherwise) const {
     if (empty()) return otherwise;
     const auto heavier = [](const auto& a, const auto& b) { return a.second < b.second; };
@@ -84,7 +76,6 @@ class Reading {
   const Habits& habits(std::size_t tool) const { return habits_[tool]; }
   std::size_t backs_at_layers() const { return backs_at_layers_; }
   bool begins_with_outer_walls() const { return outer_first_ > 0; }
-  bool irons() const { return skin_flow_.share_below(ironing_flow * skin_flow_.value_or(0)) > most_ironing; }
 
  private:
   static double of(const std::map<Role, Frequent>& all, Role role, double otherwise) {
@@ -117,7 +108,6 @@ class Reading {
     const double mm = way_mm(i);
     width_mm_.try_emplace(move.role, 0.01).first->second.add(road_width_mm(move), mm);
     speed_mm_s_.try_emplace(move.role, 0.01).first->second.add(move.speed_mm_s, mm);
-    if (move.role == Role::solid_infill) skin_flow_.add(move.filament_mm / mm, mm);
     if (move.layer == 0 && is_wall(move.role)) first_mm_s_.add(move.speed_mm_s, mm);
   }
 
@@ -209,11 +199,6 @@ Config cura_config(const GcodePrint& print, const AuditMachine& machine, const C
                     "say how thick its filament is: export it for filament of 1.75 mm, or put '; "
                     "filament_diameter = 2.85' into the start code",
                     print.name, machine.nozzles.front().filament_diameter_mm, outer_mm));
-  if (reading.irons())
-    throw Error(
-        fmt::format("{}: skins are gone over with hardly any plastic: ironing is not re-planned yet; switch it "
-                    "off in the slicer",
-                    print.name));
   if (reading.travel_mm_s().empty())
     throw Error(fmt::format("{}: it never travels, so nothing tells how fast; there is nothing to plan", print.name));
   Config config = printer != nullptr ? *printer : Config{};
@@ -244,6 +229,24 @@ Config cura_config(const GcodePrint& print, const AuditMachine& machine, const C
     e.retract_layer_change = reading.backs_at_layers() > 0;
   }
   return config;
+}
+
+std::optional<GcodePrint> with_ironing(const GcodePrint& print) {
+  const auto flow_of = [&](std::size_t i) {  // of filament, for each mm of way and of height
+    const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
+    return print.moves[i].filament_mm / std::hypot(b.x - a.x, b.y - a.y) / double(print.moves[i].height_mm);
+  };
+  Frequent wall_flow(0.001);
+  for (std::size_t i = 1; i < print.moves.size(); ++i)
+    if (print.moves[i].role == Role::external_perimeter && lays_plastic(print, i)) wall_flow.add(flow_of(i));
+  const double least = ironing_flow * wall_flow.value_or(0);
+  std::optional<GcodePrint> result;
+  for (std::size_t i = 1; i < print.moves.size(); ++i) {
+    if (print.moves[i].role != Role::solid_infill || !lays_plastic(print, i) || flow_of(i) >= least) continue;
+    if (!result) result = print;
+    result->moves[i].role = Role::ironing;
+  }
+  return result;
 }
 
 }  // namespace cleancolor

@@ -7,6 +7,8 @@
 // Each is the most frequent value: of roads and travel by length, of what is drawn back by number.
 #pragma once
 
+#include <optional>
+
 #include "audit/machine.hpp"
 #include "model/config.hpp"
 #include "reader/print.hpp"
@@ -17,6 +19,10 @@ namespace cleancolor {
 /// makes use of, and cura_free_mm around it.
 /// Throws Error where the moves do not tell it, or what it was printed by cannot be re-planned; it says what to do.
 Config cura_config(const GcodePrint& print, const AuditMachine& machine, const Config* printer);
+
+/// The same with skins that are laid with hardly any plastic as what they are, ironing; nothing where there are none.
+/// They are there to plan by, as in replan/found_roles.hpp.
+std::optional<GcodePrint> with_ironing(const GcodePrint& print);
 
 inline constexpr double cura_free_mm = 20;
 

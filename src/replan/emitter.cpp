@@ -149,12 +149,13 @@ void Emitter::push_forward(std::int64_t to_e5) {
   back_e5() = to_e5;
 }
 
-void Emitter::road(FilePoint to, std::int64_t filament_e5, double feed_mm_min) {
+void Emitter::road(FilePoint to, std::int64_t filament_e5, double feed_mm_min, const std::optional<RoadArc>& arc) {
   assert(known_ && drawn_back_e5() <= negligible_e5 && lift_um_ == 0);
   if (to == at_) return;
-  text_ += "G1";
-  if (to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);
-  if (to.y_um != at_.y_um) put<3>(text_, 'Y', to.y_um);
+  text_ += !arc ? "G1" : arc->clockwise ? "G2" : "G3";
+  if (arc || to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);
+  if (arc || to.y_um != at_.y_um) put<3>(text_, 'Y', to.y_um);
+  if (arc) put<3>(text_, 'I', arc->center.x_um - at_.x_um), put<3>(text_, 'J', arc->center.y_um - at_.y_um);
   if (filament_e5 != 0) put_e(filament_e5);
   put_feed(feed_mm_min);
   end_line();

@@ -46,7 +46,7 @@ class Emitter {
   void lower();
   void draw_back(std::int64_t to_e5);         // by so much in all
   void push_forward(std::int64_t to_e5 = 0);  // until so much is still drawn back
-  void road(FilePoint to, std::int64_t filament_e5, double feed_mm_min);
+  void road(FilePoint to, std::int64_t filament_e5, double feed_mm_min, const std::optional<RoadArc>& arc = {});
 
   /// The lines of the file; afterwards the place is told anew.
   void change_tool(int tool);

@@ -18,7 +18,7 @@ FilamentBook::FilamentBook(int tools, bool e_of_each_tool)
 
 void FilamentBook::count(const GcodeLine& line, int tool, bool relative) {
   const bool sets = line.letter == 'G' && line.number == 92;
-  const bool moves = line.letter == 'G' && line.number <= 1;
+  const bool moves = line.letter == 'G' && line.number <= 3;
   if (!sets && (!moves || relative)) return;
   const auto take = [&](char letter, std::size_t index) {
     if (line.has_value(letter)) count_[index] = filament_e5(line[letter]);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <span>
 
 #include "base/error.hpp"
@@ -19,6 +20,7 @@
 #include "replan/file_parts.hpp"
 #include "replan/leads.hpp"
 #include "replan/staged_layer.hpp"
+#include "replan/storeys.hpp"
 #include "replan/walled_layers.hpp"
 
 namespace cleancolor {
@@ -35,8 +37,37 @@ constexpr RefusedOption refused_options[] = {
     {"use_firmware_retraction", "the firmware draws filament back; switch it off in the slicer"},
     {"use_volumetric_e", "E in mm3 is not re-planned yet; switch it off in the slicer"},
     {"infill_first", "infill before perimeters is not re-planned yet; switch it off in the slicer"},
-    {"ironing", "ironing is not re-planned yet; switch it off in the slicer"},
 };
+
+bool is_support(Role role) {
+  return role == Role::support || role == Role::support_interface;
+}
+
+/// The extruders that print part or supports in each layer, ascending.
+std::vector<std::vector<int>> extruders_by_layer(const Scene& scene) {
+  std::vector<std::vector<int>> result;
+  for (const Layer& layer : scene.layers) {
+    std::set<int> here;
+    for (const Path& path : layer.paths)
+      if (const Role role = path.road().role; !is_auxiliary(role) || is_support(role)) here.insert(path.extruder);
+    result.emplace_back(here.begin(), here.end());
+  }
+  return result;
+}
+
+/// Of the storeys, by part or supports.
+Use use_of(const Scene& scene, const std::vector<std::vector<int>>& extruders) {
+  Use use(scene.storeys.part);
+  for (std::size_t k = 0; k < extruders.size(); ++k)
+    for (const int e : extruders[k]) {
+      if (use.last_layer.size() <= std::size_t(e)) use.last_layer.resize(std::size_t(e) + 1);
+      std::optional<int>& last = use.last_layer[std::size_t(e)];
+      if (!last) use.extruders.push_back(e);
+      last = std::max(last.value_or(0), int(scene.storeys.of_layer[k]));
+    }
+  std::ranges::sort(use.extruders);
+  return use;
+}
 
 /// As the writer would print it: never faster than the filament allows.
 void limit_speeds(std::vector<Path>& paths, const Config& config) {
@@ -56,9 +87,13 @@ void by_tools_of(const RecoveredLayer& layer, std::vector<Path>& walls) {
       wall.extruder = layer.runs.front().tool;
 }
 
-Layer with_walls(Layer layer, const PrintedRampart& rampart, const RecoveredPrint& recovered, const Config& config) {
-  std::vector<Path> paths = rampart.paths(layer.index);
-  if (recovered.keeps_tools) by_tools_of(recovered.layers[std::size_t(layer.index)], paths);
+/// Between storeys it has none.
+Layer with_walls(Layer layer, const Storeys& storeys, const PrintedRampart& rampart, const RecoveredPrint& recovered,
+                 const Config& config) {
+  const auto k = std::size_t(layer.index);
+  if (!storeys.is_storey[k]) return layer;
+  std::vector<Path> paths = rampart.paths(int(storeys.of_layer[k]));
+  if (recovered.keeps_tools) by_tools_of(recovered.layers[k], paths);
   limit_speeds(paths, config);
   std::ranges::move(layer.paths, std::back_inserter(paths));
   layer.paths = std::move(paths);
@@ -138,12 +173,12 @@ std::vector<Layer> in_plain_order(const Scene& scene, const PrintedRampart& ramp
   std::vector<Layer> layers = scene.layers;
   for (Layer& layer : layers) {
     const std::vector<Stop>& stops = scene.stops[std::size_t(layer.index)];
-    std::vector<Layer> parts = parts_of(with_walls(std::move(layer), rampart, recovered, config), stops);
+    std::vector<Layer> parts = parts_of(with_walls(std::move(layer), scene.storeys, rampart, recovered, config), stops);
     layer = parts.front();
     layer.paths.clear();
     for (Layer& part : parts) {
       if (scene.has_shield || !stops.empty()) state.extruder = part.paths.front().extruder;
-      order(part, state, config, rampart.site(layer.index));
+      order(part, state, config, rampart.site(int(scene.storeys.of_layer[std::size_t(layer.index)])));
       std::ranges::move(part.paths, std::back_inserter(layer.paths));
     }
   }
@@ -208,11 +243,12 @@ ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recover
       }
     return {std::move(layers)};
   }
-  const Use use(scene.slices);
+  const std::vector<std::vector<int>> extruders = extruders_by_layer(scene);
+  const Use use = use_of(scene, extruders);
   if (use.extruders.size() < 2)
     throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));
   const double apart_mm = columns_apart_mm(config);
-  Slices around = without_columns_beside(scene.around, scene.slices, apart_mm);
+  Slices around = without_columns_beside(scene.storeys.around, scene.storeys.part, apart_mm);
   const bool stands_apart = columns(around, apart_mm).size() > 1;
   std::optional<Slices> column;
   if (options.rampart == RampartExtent::column) column = shortest_column(around, apart_mm);
@@ -227,11 +263,11 @@ ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recover
     rampart.emplace(around, use, config, options.threads);
   }
   std::vector<double> height_mm;
-  for (const Slab& slab : scene.slices.slabs) height_mm.push_back(slab.height_mm);
+  for (const Slab& slab : scene.storeys.part.slabs) height_mm.push_back(slab.height_mm);
   if (config.planner == Planner::plain) return {in_plain_order(scene, *rampart, recovered, config), !rampart->empty()};
-  const SurfaceVisibility visibility(scene.slices.outlines, height_mm, {.threads = options.threads}, progress);
+  const SurfaceVisibility visibility(scene.storeys.part.outlines, height_mm, {.threads = options.threads}, progress);
   const int first = recovered.layers.front().runs.front().tool;
-  std::vector<int> first_of_layer = first_extruders(printing_by_layer(scene.slices), first);
+  std::vector<int> first_of_layer = first_extruders(extruders, first);
   if (scene.has_shield || recovered.keeps_tools)
     for (std::size_t k = 0; k < first_of_layer.size(); ++k) first_of_layer[k] = recovered.layers[k].runs.front().tool;
 
@@ -244,12 +280,14 @@ ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recover
   for (int e = 0; e < int(config.extruders.size()); ++e) leads.hop.push_back(hop_time(config, e));
   const int walled = walled_layers(scene.layers, leads.ooze);
   const auto plan = [&](int k) {
+    const std::size_t storey = scene.storeys.of_layer[std::size_t(k)];
+    const PackedPolygons& outline = scene.storeys.part.outlines[storey];
     Layer layer = scene.layers[std::size_t(k)];
-    if (k < walled) layer = with_walls(std::move(layer), *rampart, recovered, config);
-    PlanScene own = plan_scene(scene.slices, use, config, *rampart, k);
+    if (k < walled) layer = with_walls(std::move(layer), scene.storeys, *rampart, recovered, config);
+    PlanScene own = plan_scene(scene.storeys.part, use, config, *rampart, int(storey));
     if (k >= walled) own.site = {};
-    if (!own.site.part.empty()) own.site.part = scene.slices.outlines[std::size_t(k)];
-    if (scene.has_shield) own.site = {use.hot(k, config), scene.slices.outlines[std::size_t(k)]};
+    if (!own.site.part.empty()) own.site.part = outline;
+    if (scene.has_shield) own.site = {use.hot(int(storey), config), outline};
     planned[std::size_t(k)].emplace(std::move(layer), first_of_layer[std::size_t(k)], scene.stops[std::size_t(k)],
                                     config, own, visibility);
   };
@@ -263,7 +301,8 @@ ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recover
                       print.name, k + 1));
     Path last = own->last();
     Layer layer = with_loops_apart(std::move(*own).release(), recovered.layers[std::size_t(k)], print, machine, leads);
-    result.push_back(with_leads(std::move(layer), unpacked(scene.slices.regions[std::size_t(k)]),
+    result.push_back(with_leads(std::move(layer),
+                                unpacked(scene.storeys.part.regions[scene.storeys.of_layer[std::size_t(k)]]),
                                 below.points.empty() ? nullptr : &below, leads));
     below = std::move(last);
     own.reset();

@@ -14,6 +14,7 @@
 #include "replan/dialect_words.hpp"
 #include "replan/filament_book.hpp"
 #include "replan/file_parts.hpp"
+#include "replan/pieces.hpp"
 #include "replan/refusals.hpp"
 
 namespace cleancolor {
@@ -75,14 +76,13 @@ class Recovery {
     while (move_ < print_.moves.size() && print_.moves[move_].offset < at_) ++move_;
     if (move_ == print_.moves.size() || print_.moves[move_].offset != at_) return std::nullopt;
     const std::size_t found = move_++;
-    if (move_ < print_.moves.size() && print_.moves[move_].offset == at_)
-      refuse(at_, "this line makes several moves; switch off arcs in the slicer");
+    if (move_ < print_.moves.size() && print_.moves[move_].offset == at_) refuse(at_, "this line makes several moves");
     return found;
   }
 
   void count_e() {
     book_.count(line_, tool_, r_.relative_e);
-    if (line_.letter == 'G' && line_.number <= 1 && line_.has_value('F')) feed_ = line_['F'];
+    if (line_.letter == 'G' && line_.number <= 3 && line_.has_value('F')) feed_ = line_['F'];
   }
 
   void before_layers() {
@@ -216,6 +216,7 @@ class Recovery {
   void command_g() {
     if (const auto fault = fault_of_g(line_, raw_)) refuse(at_, *fault);
     if (line_.number == 92) return;
+    if (line_.number == 2 || line_.number == 3) return lay_arc();
     const auto index = take_move();
     if (!index) return;  // a speed alone
     const GcodeMove& move = print_.moves[*index];
@@ -315,11 +316,35 @@ class Recovery {
     r_.keeps_tools = breaks_ = true;
   }
 
+  /// An arc of plastic, in chords.
+  void lay_arc() {
+    while (move_ < print_.moves.size() && print_.moves[move_].offset < at_) ++move_;
+    const std::size_t first = move_;
+    while (move_ < print_.moves.size() && print_.moves[move_].offset == at_) ++move_;
+    if (first == move_ || first == 0 || !print_.moves[first].arc || !lays_plastic(print_, first))
+      refuse(at_, "an arc that lays no plastic is not re-planned; switch off arcs in the slicer");
+    const Vec3 from = print_.moves[first - 1].to_mm, to = print_.moves[move_ - 1].to_mm;
+    const auto arc = arc_of(line_, {from.x, from.y}, {to.x, to.y});
+    if (!arc)
+      refuse(at_, "an arc that is a whole circle, or none, is not re-planned; switch off arc fitting in the slicer");
+    lay(first, print_.moves[move_ - 1], from);
+    RunRoad& road = run().roads.back();
+    road.moves = std::uint32_t(move_ - first);
+    road.arc = arc;
+    double filament_mm = 0;
+    for (std::size_t i = first; i < move_; ++i) filament_mm += print_.moves[i].filament_mm;
+    road.filament_e5 = to_e5(filament_mm);
+  }
+
+  /// index: of the first move of its line, move: the last.
   void lay(std::size_t index, const GcodeMove& move, Vec3 from) {
     if (const auto fault = fault_of_road(move, from, tool_, words_)) refuse(at_, *fault);
     if (move.role == Role::wipe_tower) r_.keeps_tools = true;
     require_pushed_forward();
-    if (breaks_) close_gap(from);
+    const Role before = breaks_ ? move.role : print_.moves[run().roads.back().move].role;
+    // Supports and ironing have their own place in the order.
+    const bool differ = is_auxiliary(before) != is_auxiliary(move.role);
+    if (breaks_ || differ || (before == Role::ironing) != (move.role == Role::ironing)) close_gap(from);
     if (r_.layers.empty()) refuse(at_, "a road before the first layer");
     for (const Note& note : gap_) {
       if (note.is_command) refuse(note.offset, "a command in the middle of a road: it cannot be moved");

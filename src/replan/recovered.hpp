@@ -28,12 +28,20 @@ struct FilePoint {
   friend bool operator==(const FilePoint&, const FilePoint&) = default;
 };
 
+/// Of a road that goes round: G2, G3. Never a whole circle.
+struct RoadArc {
+  FilePoint center;
+  bool clockwise = false;
+};
+
 struct RunRoad {
   FilePoint to;
   std::int64_t filament_e5 = 0;
   double feed_mm_min = 0;
   std::uint32_t state = 0;  // index into RecoveredPrint::states
-  std::uint32_t move = 0;   // index into GcodePrint::moves
+  std::uint32_t move = 0;   // index into GcodePrint::moves,
+  std::uint32_t moves = 1;  // and how many: the chords of an arc
+  std::optional<RoadArc> arc = {};
 };
 
 /// Filament is drawn back while the nozzle goes back over what it printed.

@@ -20,7 +20,8 @@ std::optional<std::string> fault_of_g(const GcodeLine& line, std::string_view ra
       return std::nullopt;
     case 2:
     case 3:
-      return "arcs are not re-planned yet; switch off arc fitting in the slicer";
+      if (line.has('I') || line.has('J')) return std::nullopt;
+      return "an arc without its centre (I J) is not re-planned; switch off arc fitting in the slicer";
     case 10:
     case 11:
       return "the firmware draws filament back; switch off use_firmware_retraction in the slicer";
@@ -54,11 +55,6 @@ std::optional<std::string> fault_of_road(const GcodeMove& move, Vec3 from, int t
     case Role::wipe_tower:
       if (words.tower_is_roads) return std::nullopt;
       return "a road of the wipe tower outside of it";
-    case Role::support:
-    case Role::support_interface:
-      return "prints with supports are not re-planned yet";
-    case Role::ironing:
-      return "ironing is not re-planned yet; switch it off in the slicer";
     case Role::custom:
       return "a road of custom G-code among the layers cannot be moved";
     case Role::unknown:

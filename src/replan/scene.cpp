@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -42,6 +43,17 @@ int depth_of(const Path& path, const Zone* zone) {
   return std::clamp(int(std::lround(inside / std::max(spacing, 0.05))), overhangs ? 0 : 1, fill_depth - 1);
 }
 
+/// Where the road's plastic goes on to, and ends: places of an arc, as the reader has it.
+std::vector<Vec2> places_mm(const RunRoad& road, int tool, const GcodePrint& print, const AuditMachine& machine) {
+  std::vector<Vec2> places;
+  for (std::uint32_t i = road.move; i + 1 < road.move + road.moves; ++i) {
+    const Vec3 to = print.moves[i].to_mm;
+    places.push_back(plastic_mm(machine, {to.x, to.y}, tool));
+  }
+  places.push_back(place_mm(road.to, tool, machine));
+  return places;
+}
+
 /// Two points, so that it can be planned; where it goes on from.
 Path path_of_stop(FilePoint at, int tool, int source, double height_mm, const AuditMachine& machine) {
   constexpr double width_mm = 0.4;
@@ -54,19 +66,32 @@ Path path_of_stop(FilePoint at, int tool, int source, double height_mm, const Au
   return path;
 }
 
-void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
-                   bool keeps_seams, Scene& scene) {
-  const RecoveredLayer& layer = recovered.layers[k];
-  std::vector<LaidRoad> roads;
-  Polygons auxiliary;
-  std::vector<LaidRoad> extra;
+/// Bridges are told to be as high as their round strands, and ironing as what it adds.
+bool tells_height(const GcodeMove& move) {
+  return !is_auxiliary(move.role) && move.role != Role::bridge_infill && move.role != Role::overhang_perimeter &&
+         move.role != Role::ironing;
+}
+
+/// What there is of the part in each layer, and of all.
+struct LayerSlices {
+  Slices part, around;
+};
+
+/// Returns: what the nozzles' roads of the part enclose.
+std::vector<Polygons> slice_layer(std::size_t k, const RecoveredLayer& layer, const GcodePrint& print,
+                                  const AuditMachine& machine, LayerSlices& slices) {
+  std::vector<LaidRoad> roads, extra;
+  double height_mm = 0;
   for (const RecoveredRun& run : layer.runs) {
     FilePoint from = run.from;
     for (const RunRoad& road : run.roads) {
       const GcodeMove& move = print.moves[road.move];
-      const LaidRoad laid{place_mm(from, run.tool, machine), place_mm(road.to, run.tool, machine), road_width_mm(move),
-                          run.tool, move.role};
-      (is_auxiliary(move.role) ? extra : roads).push_back(laid);
+      Vec2 at = place_mm(from, run.tool, machine);
+      for (const Vec2 to : places_mm(road, run.tool, print, machine)) {
+        (is_auxiliary(move.role) ? extra : roads).push_back({at, to, road_width_mm(move), run.tool, move.role});
+        at = to;
+      }
+      if (tells_height(move)) height_mm = std::max(height_mm, std::round(move.height_mm * 1e4) / 1e4);
       from = road.to;
     }
   }
@@ -77,12 +102,18 @@ void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePr
     append(outline, regions.back());
   }
   outline = simplified(closed(united(outline), crack_mm), detail_mm / 2);
-  scene.slices.regions[k] = packed(regions);
-  scene.slices.outlines[k] = outline;
-  scene.around.regions[k] = scene.slices.regions[k];
-  scene.around.outlines[k] = extra.empty() ? outline : united(outline, filled(plastic(extra, detail_mm)));
+  slices.part.regions[k] = packed(regions);
+  slices.part.outlines[k] = outline;
+  slices.part.slabs[k] = {.print_z_mm = layer.z_mm,
+                          .height_mm = std::clamp(height_mm > 0 ? height_mm : layer.height_mm, 0.01, 5.)};
+  slices.around.outlines[k] = extra.empty() ? outline : united(outline, filled(plastic(extra, detail_mm)));
+  return regions;
+}
 
-  const std::vector<Zone> zones = zones_of(regions);
+void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
+                   bool keeps_seams, LayerSlices& slices, Scene& scene) {
+  const RecoveredLayer& layer = recovered.layers[k];
+  const std::vector<Zone> zones = zones_of(slice_layer(k, layer, print, machine, slices));
   Layer& planned = scene.layers[k];
   planned.index = int(k);
   planned.print_z_mm = layer.z_mm;
@@ -119,10 +150,8 @@ void recover_layer(std::size_t k, const RecoveredPrint& recovered, const GcodePr
 }
 
 void require_part(const Scene& scene, const GcodePrint& print) {
-  for (std::size_t k = 0; k < scene.layers.size(); ++k)
-    if (scene.slices.outlines[k].empty())
-      throw Error(
-          fmt::format("{}: layer {} has nothing of the part; such files are not re-planned yet", print.name, k + 1));
+  if (std::ranges::all_of(scene.storeys.part.outlines, &PackedPolygons::empty))
+    throw Error(fmt::format("{}: it has nothing of a part; there is nothing to plan", print.name));
 }
 
 }  // namespace
@@ -131,16 +160,15 @@ Scene scene_of(const RecoveredPrint& recovered, const GcodePrint& print, const A
                int threads) {
   Scene scene;
   const std::size_t count = recovered.layers.size();
-  for (Slices* slices : {&scene.slices, &scene.around}) {
-    slices->regions.resize(count);
-    slices->outlines.resize(count);
-    for (const RecoveredLayer& layer : recovered.layers)
-      slices->slabs.push_back({.print_z_mm = layer.z_mm, .height_mm = std::clamp(layer.height_mm, 0.01, 5.)});
-  }
+  LayerSlices slices;
+  slices.part.slabs.resize(count);
+  slices.part.regions.resize(count);
+  for (Slices* all : {&slices.part, &slices.around}) all->outlines.resize(count);
   scene.layers.resize(count);
   scene.stops.resize(count);
   parallel_for(int(count), threads,
-               [&](int k) { recover_layer(std::size_t(k), recovered, print, machine, keeps_seams, scene); });
+               [&](int k) { recover_layer(std::size_t(k), recovered, print, machine, keeps_seams, slices, scene); });
+  scene.storeys = storeys(std::move(slices.part), std::move(slices.around));
   const auto shield = shield_runs(recovered, print);
   scene.has_shield = !shield.empty();
   for (std::size_t k = 0; k < shield.size(); ++k)
@@ -163,8 +191,9 @@ Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodeP
   const double filament_mm2 = filament_area_mm2(machine, run.tool);
   for (const RunRoad& r : run.roads) {
     const GcodeMove& move = print.moves[r.move];
-    const Vec2 to = place_mm(r.to, run.tool, machine);
-    const double mm = distance(path.points.back(), to);
+    const std::vector<Vec2> places = places_mm(r, run.tool, print, machine);
+    double mm = distance(path.points.back(), places.front());
+    for (std::size_t i = 1; i < places.size(); ++i) mm += distance(places[i - 1], places[i]);
     const Road road{.role = move.role,
                     .width_mm = road_width_mm(move),
                     .height_mm = move.height_mm > 0 ? double(move.height_mm) : height_mm,
@@ -176,7 +205,7 @@ Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodeP
     };
     if (path.stretches.empty() || !is_same(path.stretches.back().road))
       path.stretches.push_back({std::uint32_t(path.points.size() - 1), road});
-    path.points.push_back(to);
+    path.points.insert(path.points.end(), places.begin(), places.end());
   }
   const double gap = distance(path.points.front(), path.points.back());
   const bool walls = std::ranges::all_of(path.stretches, [](const Stretch& s) { return is_wall(s.road.role); });

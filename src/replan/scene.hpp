@@ -14,7 +14,7 @@
 #include "reader/print.hpp"
 #include "replan/recovered.hpp"
 #include "replan/staged_layer.hpp"
-#include "slice/slices.hpp"
+#include "replan/storeys.hpp"
 #include "toolpath/path.hpp"
 
 namespace cleancolor {
@@ -27,15 +27,14 @@ Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodeP
              const AuditMachine& machine);
 
 struct Scene {
-  Slices slices;                         // of the part
-  Slices around;                         // the same with skirt and brim: what a rampart stands around
+  Storeys storeys;
   std::vector<Layer> layers;             // their paths as in the file
   std::vector<std::vector<Stop>> stops;  // of each layer
   bool has_shield = false;
 };
 
 /// keeps_seams: loops stay open, so that they begin where they do in the file, or end there and run the other way.
-/// Throws Error where a layer has nothing of the part.  Same result for any number of threads.
+/// Throws Error where there is nothing of a part.  Same result for any number of threads.
 /// Cost: some 4 us of CPU a road.
 Scene scene_of(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine, bool keeps_seams,
                int threads);

@@ -13,76 +13,16 @@
 #include "gcode/polyline.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/emitter.hpp"
+#include "replan/pieces.hpp"
 #include "replan/scene.hpp"
 
 namespace cleancolor {
 namespace {
 
 constexpr double same_place_mm = 0.002;
+constexpr double chord_mm = 0.011;  // between an arc and what is planned by
 constexpr double same_way_um = 50;
 constexpr std::int64_t unknown_way_um = 1'000'000'000;
-
-double length_um(FilePoint a, FilePoint b) {
-  return std::hypot(double(b.x_um - a.x_um), double(b.y_um - a.y_um));
-}
-FilePoint between(FilePoint a, FilePoint b, double share) {
-  return {a.x_um + std::llround(double(b.x_um - a.x_um) * share),
-          a.y_um + std::llround(double(b.y_um - a.y_um) * share)};
-}
-
-/// One road with both its ends.
-struct Piece {
-  FilePoint from, to;
-  std::int64_t filament_e5 = 0;
-  double feed_mm_min = 0;
-  std::uint32_t state = 0;
-};
-
-std::vector<Piece> pieces_of(const RecoveredRun& run) {
-  std::vector<Piece> pieces;
-  FilePoint from = run.from;
-  for (const RunRoad& road : run.roads) {
-    pieces.push_back({from, road.to, road.filament_e5, road.feed_mm_min, road.state});
-    from = road.to;
-  }
-  return pieces;
-}
-
-std::vector<Piece> backwards(std::vector<Piece> pieces) {
-  std::ranges::reverse(pieces);
-  for (Piece& p : pieces) std::swap(p.from, p.to);
-  return pieces;
-}
-
-/// Both parts of a piece.
-std::pair<Piece, Piece> cut(const Piece& piece, FilePoint at) {
-  const double whole = length_um(piece.from, piece.to);
-  const double share = whole > 0 ? length_um(piece.from, at) / whole : 0;
-  Piece first = piece, second = piece;
-  first.to = second.from = at;
-  first.filament_e5 = std::llround(double(piece.filament_e5) * share);
-  second.filament_e5 = piece.filament_e5 - first.filament_e5;
-  return {first, second};
-}
-
-/// Cuts so much off the end; returns the filament that went with it.
-std::int64_t cut_end(std::vector<Piece>& pieces, double gap_um) {
-  std::int64_t filament = 0;
-  while (!pieces.empty() && gap_um > 0.5) {
-    Piece& last = pieces.back();
-    const double length = length_um(last.from, last.to);
-    if (length > gap_um + 0.5) {
-      const auto [kept, rest] = cut(last, between(last.from, last.to, 1 - gap_um / length));
-      filament += rest.filament_e5;
-      last = kept;
-      break;
-    }
-    filament += last.filament_e5;
-    gap_um -= length;
-    pieces.pop_back();
-  }
-  return filament;
-}
 
 /// Twice, > 0 counterclockwise.
 template <class Points, class At>
@@ -98,7 +38,8 @@ double area_of(const Points& points, At at) {
 /// Whether the closed path goes round the other way than the run.
 bool is_turned(const Path& path, const RecoveredRun& run) {
   const double planned = area_of(path.points, [](Vec2 p) { return p; });
-  const double sliced = area_of(run.roads, [](const RunRoad& r) { return Vec2{double(r.to.x_um), double(r.to.y_um)}; });
+  const double sliced =
+      area_of(points_of(pieces_of(run)), [](FilePoint p) { return Vec2{double(p.x_um), double(p.y_um)}; });
   return (planned > 0) != (sliced > 0);
 }
 
@@ -124,8 +65,7 @@ Wipe wipe_after(const RecoveredRun& run, std::vector<Piece> pieces, bool closed)
   if (sum_um < 1) return {};  // on the spot, like any drawing back
   at = pieces.back().to;
   if (!closed) pieces = backwards(std::move(pieces));
-  std::vector<FilePoint> way{pieces.front().from};
-  for (const Piece& p : pieces) way.push_back(p.to);
+  const std::vector<FilePoint> way = points_of(pieces);
   std::vector<WipeMove> moves;
   std::vector<double> gone_um;
   for (std::size_t i = 0; i < way.size() && (gone_um.empty() || gone_um.back() < sum_um); ++i) {
@@ -339,7 +279,7 @@ class Writing {
     push_forward();
     for (const Piece& p : pieces) {
       out_.set_known(p.state);
-      out_.road(p.to, p.filament_e5, p.feed_mm_min);
+      out_.road(p.to, p.filament_e5, p.feed_mm_min, p.arc);
     }
     wipe_ = options_.as_in_file ? Wipe{run.wipe_from, run.back_before_wipe_e5, run.wipe}
                                 : wipe_after(run, std::move(pieces), path.closed);
@@ -386,10 +326,11 @@ class Writing {
     const Vec2 in_gap = nearest_on_segment(place_mm(pieces.back().to, run.tool, machine_),
                                            place_mm(pieces.front().from, run.tool, machine_), path.start());
     if (distance(in_gap, path.start()) <= same_place_mm) return pieces;
+    const Vec2 offset = place_mm({}, run.tool, machine_);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const Vec2 q = nearest_on_segment(place_mm(pieces[i].from, run.tool, machine_),
-                                        place_mm(pieces[i].to, run.tool, machine_), path.start());
-      if (const double off = distance(q, path.start()); off < least || i == 0) least = off, best = i, on = q;
+      const Vec2 q = nearest_mm(pieces[i], path.start() - offset) + offset;
+      const double off = std::max(0., distance(q, path.start()) - (pieces[i].arc ? chord_mm : 0));
+      if (off < least || i == 0) least = off, best = i, on = q;
     }
     if (least > same_place_mm) fail("a loop begins beside itself");
     return begun_at(std::move(pieces), best, in_file(on, run.tool), gap_um);
@@ -413,7 +354,7 @@ class Writing {
         return found == recovered_.states[p.state].end() ? std::string() : found->second;
       };
       double length = 0;
-      for (const Piece& p : rest) length += length_um(p.from, p.to);
+      for (const Piece& p : rest) length += length_um(p);
       const bool alike = !rest.empty() && length > 2 * gap_um && kind(last, type_key) == kind(rest.back(), type_key);
       if (alike) seam.filament_e5 = cut_end(rest, gap_um);
       turned.push_back(seam);

@@ -202,6 +202,31 @@ TEST(PrintOrder, SkirtThenWallsOfAColourComeBeforeItsFirstRun) {
   }
 }
 
+TEST(PrintOrder, IroningComesAfterAllElseOfItsColourAsItIsGiven) {
+  for (unsigned seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    Drawn drawn = random_nested(seed);
+    std::mt19937 random(seed);
+    std::map<int, std::vector<Vec2>> given;  // starts
+    for (int i = 0; i < 8; ++i) {
+      const auto place = [&] { return Vec2{double(random() % 70), double(random() % 20)}; };
+      const Path over = drawn_path(i % 2, {place(), place()}, false, fill_depth, int(random() % 3), Role::ironing);
+      given[over.extruder].push_back(over.start());
+      drawn.paths.insert(drawn.paths.begin() + (i < 2 ? 0 : std::ptrdiff_t(drawn.paths.size())), over);
+    }
+    for (const PrintOrder print_order : {PrintOrder::exposure, PrintOrder::few_changes, PrintOrder::paper}) {
+      std::map<int, std::vector<Vec2>> starts;
+      for (const Path& path : planned(drawn, print_order, Planner::clean, true)) {
+        if (path.road().role == Role::ironing)
+          starts[path.extruder].push_back(path.start());
+        else
+          EXPECT_FALSE(starts.contains(path.extruder)) << "printed after it is ironed";
+      }
+      EXPECT_EQ(starts, given);
+    }
+  }
+}
+
 TEST(PrintOrder, PlannerPaperHasThePapersOrder) {
   for (unsigned seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE(seed);

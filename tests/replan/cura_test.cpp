@@ -333,29 +333,6 @@ TEST(ReplanCura, TellsABrimFromTheWallsBesideIt) {
   EXPECT_NE(out.find(";RAMPART_WALL"), out.npos);
 }
 
-TEST(ReplanCura, RefusesIroning) {
-  std::string text;
-  std::istringstream in(cura_bar());
-  bool skin = false;
-  double count = 0, told = 0;
-  int roads = 0;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with(";TYPE:")) skin = line == ";TYPE:SKIN";
-    if (line == "G92 E0") count = told = 0;
-    const std::size_t e = line.find(" E");
-    if (line[0] == 'G' && line[1] != '9' && e != line.npos) {
-      std::size_t length = 0;
-      const double value = std::stod(line.substr(e + 2), &length);
-      const bool thin = skin && value > count && ++roads % 3 == 0;
-      told += (value - count) * (thin ? 0.1 : 1);
-      count = value;
-      line.replace(e + 2, length, fmt::format("{:.5f}", told));
-    }
-    text += line + "\n";
-  }
-  EXPECT_ERROR(cura_replanned(text), "ironing");
-}
-
 /// Lines left out, said twice, swapped or with another letter: whatever comes in is refused, or planned whole.
 TEST(ReplanCura, RefusesDamagedFilesOrPlansThemWhole) {
   const auto replan = [](const std::string& text) { return cura_replanned(text); };
@@ -370,7 +347,6 @@ TEST(ReplanCura, RefusesWithLineAndReasonWhatItDoesNotKnowForSure) {
   EXPECT_ERROR(cura_replanned(among("PAUSE_HERE")), "PAUSE_HERE");
   EXPECT_ERROR(cura_replanned(among("G10")), "firmware");
   EXPECT_ERROR(cura_replanned(among("G28 X")), "G28");
-  EXPECT_ERROR(cura_replanned(replaced(cura_bar(), ";TYPE:SKIN", ";TYPE:SUPPORT")), "support");
   EXPECT_ERROR(cura_replanned(replaced(cura_bar(), ";FLAVOR:Marlin", ";FLAVOR:UltiGCode")), "mm3");
 }
 
