@@ -65,7 +65,7 @@ Attempt Attempts::with(RampartExtent extent) const {
       .has_rampart = planned.has_rampart,
       .stands_apart = planned.stands_apart};
   made.print = read_gcode(made.text, print_.name);
-  const DialectWords& words = *words_of(print_.facts.dialect);
+  const DialectWords& words = *words_of(print_);
   if (words.times_heaters && sets_temperatures(recovered_, print_)) {
     made.text = with_heaters(recovered_, print_, made.print, machine_, words.layer_begins.front());
     made.print = read_gcode(made.text, print_.name);

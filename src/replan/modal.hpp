@@ -34,6 +34,9 @@ struct ModalLine {
 };
 std::optional<ModalLine> modal_line(const GcodeLine& line);
 
+/// What of it says how fast the carriage may become faster and turn.
+ModalState of_moving(const ModalState& state);
+
 /// Takes the line into the state.
 void take(ModalState& state, const ModalLine& what, std::string_view text);
 

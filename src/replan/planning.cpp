@@ -12,6 +12,7 @@
 #include "base/parallel.hpp"
 #include "model/ini.hpp"
 #include "model/reach.hpp"
+#include "model/text_scan.hpp"
 #include "plan/planner.hpp"
 #include "printed/printed_layer.hpp"
 #include "printed/regions.hpp"
@@ -296,6 +297,19 @@ std::vector<Layer> in_plain_order(Scene& scene, const PrintedRampart& rampart, c
 
 namespace {
 
+/// Whether the option keeps nozzles from being lifted in some of the print's layers; 0 says nothing.
+bool lifts_in_some_layers(const IniEntry& entry, const GcodePrint& print) {
+  const bool above = entry.key == "retract_lift_above", below = entry.key == "retract_lift_below";
+  if (!above && !below) return false;
+  for (std::string_view rest = entry.value; !rest.empty();) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const double z_mm = number<double>(trimmed(rest.substr(0, comma))).value_or(0);
+    if (z_mm > 0 && (above ? z_mm > print.layers.front().z_mm : z_mm < print.layers.back().z_mm)) return true;
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return false;
+}
+
 /// The printer's, and over it what the configuration block of the file says.
 Config told_config(const GcodePrint& print, const Config* printer) {
   if (print.facts.config.empty() || print.facts.config_kind.empty())
@@ -303,15 +317,16 @@ Config told_config(const GcodePrint& print, const Config* printer) {
         fmt::format("{}: it has no configuration block at its end; it is not known how far filament is drawn "
                     "back. Export the G-code again with it",
                     print.name));
-  for (const IniEntry& entry : print.facts.config)
+  const bool is_orca = print.facts.config_kind == "orcaslicer";
+  std::vector<IniEntry> told = is_orca ? from_orca(print.facts.config) : print.facts.config;
+  for (const IniEntry& entry : told)
     for (const RefusedOption& option : refused_options)
       if (entry.key == option.key && is_set(entry.value))
         throw Error(fmt::format("{}: {} = {}: {}", print.name, entry.key, entry.value, option.reason));
-  for (const IniEntry& entry : print.facts.config)
-    if ((entry.key == "retract_lift_above" || entry.key == "retract_lift_below") && is_set(entry.value))
+  for (const IniEntry& entry : told)
+    if (lifts_in_some_layers(entry, print))
       throw Error(fmt::format("{}: {} = {}: lifting in some layers only is not re-planned yet; switch it off",
                               print.name, entry.key, entry.value));
-  std::vector<IniEntry> told = print.facts.config;
   std::erase_if(told, [](const IniEntry& entry) { return entry.key == "skirt_height"; });  // -1 of Slic3r: all layers
   return with_ini(printer != nullptr ? *printer : Config{}, told, print.name).config;
 }

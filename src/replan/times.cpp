@@ -55,7 +55,7 @@ void correct_config_estimates(std::string& text, double share) {
 }  // namespace
 
 std::string with_progress(const GcodePrint& after, const Timeline& time, double share) {
-  const std::string_view elapsed = words_of(after.facts.dialect)->elapsed;
+  const std::string_view elapsed = words_of(after)->elapsed;
   const std::string_view text = *after.text;
   std::string result;
   result.reserve(text.size());
