@@ -1,6 +1,6 @@
-"""Writes G-code of PrusaSlicer in the words of OrcaSlicer or BambuStudio, for tests and benchmarks.
+"""Writes G-code of PrusaSlicer in the words of OrcaSlicer, BambuStudio or SuperSlicer, for tests and benchmarks.
 
-  orca_dialect.py in.gcode out.gcode [--bambu] [--relative-e] [--klipper] [--lift MM]
+  orca_dialect.py in.gcode out.gcode [--bambu | --super] [--relative-e] [--klipper] [--lift MM]
 
 Roads stay. Comments, header, configuration block, labels of objects, accelerations of travel, lifts on the way and in a spiral,
 and tool changes are as OrcaSlicer 2.4 and BambuStudio 2 have them.
@@ -15,6 +15,7 @@ TYPES = {"Perimeter": "Inner wall", "External perimeter": "Outer wall", "Overhan
          "Internal infill": "Sparse infill", "Solid infill": "Internal solid infill", "Top solid infill": "Top surface",
          "Bridge infill": "Bridge", "Gap fill": "Gap infill", "Skirt/Brim": "Skirt", "Support material": "Support",
          "Support material interface": "Support interface", "Wipe tower": "Prime tower", "Ironing": "Ironing"}
+SUPER_TYPES = {"Perimeter": "Internal perimeter", "Skirt/Brim": "Skirt"}
 NAMES = {"nozzle_diameter": "nozzle_diameter", "extruder_offset": "extruder_offset", "bed_shape": "printable_area",
          "max_print_height": "printable_height", "retract_length": "retraction_length", "retract_speed": "retraction_speed",
          "deretract_speed": "deretraction_speed", "retract_before_travel": "retraction_minimum_travel",
@@ -44,7 +45,7 @@ class Rewriter:
         self.lines, self.options, self.out = lines, options, []
         self.at, self.z, self.told_z, self.count, self.back = (0.0, 0.0), 0.0, 0.0, 0.0, False
         self.lifted = self.waits = self.in_object = self.in_layers = self.in_tower = self.in_wipe = False
-        self.last_road, self.acceleration, self.since_progress, self.layer = 0, None, 0, 0
+        self.last_road, self.acceleration, self.since_progress, self.layer, self.told_layer = 0, None, 0, 0, 0
         self.config = dict(re.findall(r"^; (\w+) = (.*)$", "\n".join(lines), re.M))
 
     def comment(self, plain, bambu):
@@ -61,7 +62,6 @@ class Rewriter:
             return
         self.in_object = begins
         if begins:
-            lines = [";  printing"]
             if self.options.bambu:
                 lines = ["; OBJECT_ID: 15", "; start printing object, unique label id: 15", "M624 AQAAAAAAAAA="]
             else:
@@ -92,9 +92,11 @@ class Rewriter:
         self.told_z, self.lifted = self.z + self.options.lift, True
 
     def travel(self, x, y, rest):
+        if self.options.super:
+            self.out.append("; acceleration to travel")
         self.accelerate(DRIVING)
         height = ""
-        if self.options.lift and self.back and not self.in_tower:
+        if self.options.lift and self.back and not self.in_tower and self.told_z > 0:
             top = self.z + self.options.lift
             length = math.dist(self.at, (x, y))
             if not self.lifted and length * SLOPE > self.options.lift:
@@ -102,7 +104,14 @@ class Rewriter:
                 middle = [a + (b - a) * share for a, b in zip(self.at, (x, y))]
                 self.out.append(f"G1 X{number(middle[0])} Y{number(middle[1])} Z{number(top)} F7200")
             height, self.told_z, self.lifted = f" Z{number(top)}", top, True
+        if self.options.super:  # brakes for the road on the way
+            middle = [(a + b) / 2 for a, b in zip(self.at, (x, y))]
+            self.out.append(f"G1 X{number(middle[0])} Y{number(middle[1])}{height}{rest}")
+            self.out.append("; decel to extrusion")
+            self.accelerate(PRINTING)
         self.out.append(f"G1 X{number(x)} Y{number(y)}{height}{rest}")
+        if self.options.super:
+            self.out.append("; end travel")
         self.at = (x, y)
 
     def feed(self, line):
@@ -130,7 +139,7 @@ class Rewriter:
             self.last_road = len(self.out)
         elif "Z" in words and not across:
             self.z = words["Z"]
-            if self.options.lift and self.back:
+            if self.options.lift and self.back and self.layer > 1:
                 self.lifted = False
                 self.spiral()
             else:
@@ -139,6 +148,10 @@ class Rewriter:
             self.back = True
             self.out.append(line)
             self.at = to
+            if self.options.bambu and self.layer != self.told_layer:
+                self.told_layer = self.layer
+                self.out += [f"; layer num/total_layer_count: {self.layer}/{self.lines.count(';LAYER_CHANGE')}",
+                             "; update layer progress", f"M73 L{self.layer}", f"M991 S0 P{self.layer - 1} ;notify layer change"]
         elif fed > 0 and not across:
             if self.lifted:
                 self.out.append(f"G1 Z{number(self.z)}")
@@ -170,7 +183,7 @@ class Rewriter:
     def body(self):
         self.relative_in = any(line.startswith("M83") for line in self.lines)
         for line in self.lines:
-            if line.startswith("; prusaslicer_config") or line.startswith("; objects_info"):
+            if line.startswith("; prusaslicer_config = begin") or line.startswith("; objects_info"):
                 break
             if line == ";LAYER_CHANGE":
                 self.begin_layer()
@@ -181,10 +194,10 @@ class Rewriter:
             elif line.startswith(";WIDTH:"):
                 self.comment(line, "; LINE_WIDTH: " + line[7:])
             elif line.startswith(";TYPE:"):
-                kind = TYPES.get(line[6:], line[6:])
+                kind = (SUPER_TYPES if self.options.super else TYPES).get(line[6:], line[6:])
                 if self.layer == 1 and kind == "Internal solid infill":
                     kind = "Bottom surface"
-                self.in_tower = kind == "Prime tower"
+                self.in_tower = kind in ("Prime tower", "Wipe tower")
                 if self.in_tower:
                     self.label(False)
                 self.comment(";TYPE:" + kind, "; FEATURE: " + kind)
@@ -216,7 +229,7 @@ class Rewriter:
                 self.progress()
             elif line.startswith("; filament used [mm]"):
                 self.label(False)
-                self.out += ["; EXECUTABLE_BLOCK_END", "", line]
+                self.out += [line] if self.options.super else ["; EXECUTABLE_BLOCK_END", "", line]
             elif line.startswith("; Filament gcode"):
                 self.out.append("; filament start gcode")
             elif line.startswith("; generated by"):
@@ -243,8 +256,19 @@ class Rewriter:
                   "ooze_prevention": "0", "printer_model": "two nozzles"}
         return ["; CONFIG_BLOCK_START", *(f"; {key} = {value}" for key, value in sorted(names.items())), "; CONFIG_BLOCK_END", ""]
 
+    def super_text(self, body):
+        config = self.config | {"extrusion_width": "100%", "first_layer_height": "75%", "retract_lift_top": '"All surfaces"',
+                                "retract_lift_below": "9999", "infill_speed": "80%", "seam_position": "cost",
+                                "print_retract_length": "-1", "print_retract_lift": "-1"}
+        config.pop("prusaslicer_config", None)
+        block = ["; SuperSlicer_config = begin", *(f"; {key} = {value}" for key, value in sorted(config.items())),
+                 "; SuperSlicer_config = end", ""]
+        return "\n".join(["; generated by SuperSlicer 2.5.59 on 2026-09-07 at 20:41:08 UTC", "", *body, *block])
+
     def text(self):
         body = self.body()
+        if self.options.super:
+            return self.super_text(body)
         body = [line for line in body if not line.startswith("; prusaslicer")]
         first = next(i for i, line in enumerate(body) if line.startswith(("M", "G")))
         producer = "; BambuStudio 02.03.01.51" if self.options.bambu else "; generated by OrcaSlicer 2.4.2 on 2026-09-07 at 20:41:08"
@@ -267,6 +291,7 @@ def main():
     parser.add_argument("input", type=Path)
     parser.add_argument("output", type=Path)
     parser.add_argument("--bambu", action="store_true", help="in the words for Bambu's printers")
+    parser.add_argument("--super", action="store_true", help="in the words of SuperSlicer")
     parser.add_argument("--relative-e", action="store_true")
     parser.add_argument("--klipper", action="store_true")
     parser.add_argument("--lift", type=float, default=0.0)

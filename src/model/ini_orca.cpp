@@ -1,4 +1,4 @@
-// What OrcaSlicer and BambuStudio call the options of PrusaSlicer.
+// What the relatives of PrusaSlicer call its options: OrcaSlicer, BambuStudio, SuperSlicer.
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "model/ini.hpp"
+#include "model/options.hpp"
 #include "model/text_scan.hpp"
 
 namespace cleancolor {
@@ -31,7 +32,7 @@ constexpr std::array<OrcaName, 9> of_extruders = {{
     {"retract_restart_extra_toolchange", "retract_restart_extra_toolchange"},
 }};
 
-constexpr std::array<OrcaName, 58> names = {{
+constexpr std::array<OrcaName, 59> names = {{
     {"nozzle_diameter", "nozzle_diameter"},
     {"extruder_offset", "extruder_offset"},
     {"printable_area", "bed_shape"},
@@ -87,6 +88,7 @@ constexpr std::array<OrcaName, 58> names = {{
     {"default_acceleration", "default_acceleration"},
     {"retract_lift_above", "retract_lift_above"},
     {"retract_lift_below", "retract_lift_below"},
+    {"retract_lift_enforce", "retract_lift_top"},
     {"wipe", "wipe"},
     {"ooze_prevention", "ooze_prevention"},
     {"skirt_height", "skirt_height"},
@@ -97,13 +99,26 @@ struct OrcaValue {
   std::string_view orca, value;
   std::string_view ours, text;
 };
-constexpr std::array<OrcaValue, 5> values = {{
+constexpr std::array<OrcaValue, 6> values = {{
     {"print_sequence", "by object", "complete_objects", "1"},
     {"wall_sequence", "outer wall/inner wall", "external_perimeters_first", "1"},
+    {"wall_sequence", "inner-outer-inner wall", "wall_sequence", "inner-outer-inner wall"},
     {"wall_infill_order", "outer wall/inner wall/infill", "external_perimeters_first", "1"},
     {"wall_infill_order", "infill/inner wall/outer wall", "infill_first", "1"},
     {"wall_infill_order", "infill/outer wall/inner wall", "infill_first", "1"},
 }};
+
+// SuperSlicer's own.
+constexpr std::array<OrcaName, 2> of_prints = {{
+    {"print_retract_length", "retract_length"},
+    {"print_retract_lift", "retract_lift"},
+}};
+constexpr std::array<std::string_view, 4> kept = {"ironing", "complete_objects", "external_perimeters_first",
+                                                  "use_volumetric_e"};
+
+bool is_of_nozzle(std::string_view key) {
+  return key.ends_with("extrusion_width") || key == "first_layer_height";
+}
 
 /// Widths in percent are such of the nozzle there, and of the layer height here.
 std::string width_mm(std::string_view value, double nozzle_mm) {
@@ -132,8 +147,7 @@ std::vector<IniEntry> from_orca(const std::vector<IniEntry>& entries) {
   std::vector<IniEntry> result;
   const double nozzle = nozzle_mm(entries);
   const auto put = [&](std::string_view key, std::string_view value, const IniEntry& from) {
-    const bool is_width = key.ends_with("extrusion_width");
-    result.push_back({std::string(key), is_width ? width_mm(value, nozzle) : std::string(value), from.line});
+    result.push_back({std::string(key), is_of_nozzle(key) ? width_mm(value, nozzle) : std::string(value), from.line});
   };
   for (const IniEntry& entry : entries) {
     const std::string_view key = entry.key, value = entry.value;
@@ -150,6 +164,30 @@ std::vector<IniEntry> from_orca(const std::vector<IniEntry>& entries) {
       if (!own.empty()) put(std::string(of_material) + std::string(own), value, entry);
     }
   }
+  return result;
+}
+
+std::vector<IniEntry> from_superslicer(const std::vector<IniEntry>& entries) {
+  constexpr std::string_view of_material = "filament_";
+  const double nozzle = nozzle_mm(entries);
+  std::vector<IniEntry> result;
+  for (const IniEntry& entry : entries) {
+    const std::string_view key = entry.key;
+    const std::string_view bare = key.starts_with(of_material) ? key.substr(of_material.size()) : key;
+    const bool known = std::ranges::find(names, key, &OrcaName::ours) != names.end() ||
+                       std::ranges::find(of_extruders, bare, &OrcaName::ours) != of_extruders.end() ||
+                       std::ranges::find(kept, key) != kept.end();
+    const Option* option = find_option(key);
+    const bool is_share = entry.value.ends_with('%') && option != nullptr && option->kind() == OptionKind::number;
+    if (known && is_of_nozzle(key)) {
+      result.push_back({entry.key, width_mm(entry.value, nozzle), entry.line});
+    } else if (known && !is_share) {  // a share of what is not known here: ours stays
+      result.push_back(entry);
+    }
+  }
+  for (const IniEntry& entry : entries)
+    if (const std::string_view ours = ours_of(of_prints, entry.key); !ours.empty() && !entry.value.starts_with('-'))
+      result.push_back({std::string(ours), entry.value, entry.line});
   return result;
 }
 

@@ -9,6 +9,14 @@ constexpr DialectWords prusaslicer = {.layer_begins = {";LAYER_CHANGE", ";BEFORE
                                       .own_object = {},
                                       .elapsed = {}};
 
+constexpr DialectWords superslicer = {.layer_begins = {";LAYER_CHANGE", ";BEFORE_LAYER_CHANGE"},
+                                      .header_ends = {";HEIGHT:", ";Z:"},
+                                      .own_type = ";TYPE:Skirt",
+                                      .own_object = {},
+                                      .elapsed = {},
+                                      .of_ways = {"; acceleration to travel", "; decel to extrusion", "; end travel"},
+                                      .drives_otherwise = true};
+
 constexpr DialectWords orcaslicer = {.layer_begins = {";LAYER_CHANGE", ";BEFORE_LAYER_CHANGE"},
                                      .header_ends = {";HEIGHT:", ";Z:"},
                                      .own_type = ";TYPE:Skirt",
@@ -49,9 +57,10 @@ constexpr DialectWords cura = {.layer_begins = {";LAYER:", {}},
 const DialectWords* words_of(const GcodePrint& print) {
   switch (print.facts.dialect) {
     case Dialect::prusaslicer:
-    case Dialect::superslicer:
     case Dialect::slic3r:
       return &prusaslicer;
+    case Dialect::superslicer:
+      return &superslicer;
     case Dialect::orcaslicer:
     case Dialect::bambustudio:
       return print.text->find("\n; CHANGE_LAYER") == std::string::npos ? &orcaslicer : &bambustudio;

@@ -22,6 +22,7 @@ struct DialectWords {
   std::string_view width = ";WIDTH:", height = ";HEIGHT:";                    // of roads
   std::string_view wipe_begins = ";WIPE_START", wipe_ends = ";WIPE_END";
   std::string_view tower = ";TYPE:Wipe tower";   // begins a piece of it
+  std::array<std::string_view, 3> of_ways = {};  // comments that stand before, in and behind travel
   std::string_view travel = "G1";
   bool tells_sizes = true;          // ;WIDTH: and ;HEIGHT: before roads
   bool zeroes_e = true;             // after each drawing back

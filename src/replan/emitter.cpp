@@ -91,27 +91,38 @@ void Emitter::put_place(FilePoint to) {
 
 void Emitter::travel(FilePoint to) {
   if (known_ && to == at_) return;
-  if (rises_by_um_ > 0) {
-    const double length = std::hypot(double(to.x_um - at_.x_um), double(to.y_um - at_.y_um));
-    const double share = double(rises_by_um_) / recovered_.lift_slope / length;
-    const std::int64_t z = z_um_ + std::exchange(rises_by_um_, 0);
-    if (share < 1) {
-      travel({at_.x_um + std::llround(double(to.x_um - at_.x_um) * share),
-              at_.y_um + std::llround(double(to.y_um - at_.y_um) * share)},
-             z);
-    } else {
-      return travel(to, z);
-    }
-    if (to == at_) return;
-  }
+  if (rises_by_um_ > 0) return rise_on_the_way(to);
   text_ += words_.travel;
   put_place(to);
   put_feed(config_.travel_speed_mm_s * 60);
   end_line();
 }
 
+void Emitter::rises_over(double way_um) {
+  rise_slope_ = way_um > 0 ? std::max(recovered_.lift_slope, double(rises_by_um_) / way_um) : recovered_.lift_slope;
+}
+
+void Emitter::rise_on_the_way(FilePoint to) {
+  const std::int64_t by = rises_by_um_, from_z = z_um_ + lift_um_;
+  const double possible = rise_slope_ * std::hypot(double(to.x_um - at_.x_um), double(to.y_um - at_.y_um));
+  if (possible + 1 < double(by)) {
+    const std::int64_t risen = std::llround(possible);
+    travel(to, from_z + risen);
+    rises_by_um_ = by - risen;
+    return;
+  }
+  const double share = std::min(1., double(by) / possible);
+  travel({at_.x_um + std::llround(double(to.x_um - at_.x_um) * share),
+          at_.y_um + std::llround(double(to.y_um - at_.y_um) * share)},
+         from_z + by);
+  travel(to);
+}
+
 void Emitter::travel(FilePoint to, std::int64_t z_um) {
-  if (z_known_ && z_um == told_z_um_) return travel(to);
+  if (z_known_ && z_um == told_z_um_) {
+    rises_by_um_ = 0;
+    return travel(to);
+  }
   text_ += words_.travel;
   put_place(to);
   put<3>(text_, 'Z', z_um);
@@ -148,12 +159,13 @@ void Emitter::take_z(double z_mm) {
 void Emitter::lift(double by_mm) {
   if (is_lifted()) return;
   rises_by_um_ = std::llround(by_mm * 1e3);
+  rise_slope_ = recovered_.lift_slope;
   if (recovered_.lift_slope == 0 || !known_) rise_at_once();
 }
 
 void Emitter::rise_at_once() {
   if (rises_by_um_ == 0) return;
-  lift_um_ = std::exchange(rises_by_um_, 0);
+  lift_um_ += std::exchange(rises_by_um_, 0);
   move_z(z_um_ + lift_um_);
 }
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.hpp"
+#include "model/text_scan.hpp"
 #include "replan/refusals.hpp"
 
 namespace cleancolor {
@@ -32,6 +34,10 @@ FileHabits habits_of_file(const GcodePrint& print) {
   FileHabits habits;
   for (const IniEntry& entry : print.facts.config) {
     const bool sailfish = entry.value == "sailfish", makerware = entry.value == "makerware";
+    if (entry.key == "travel_slope") {
+      const auto first = std::string_view(entry.value).substr(0, entry.value.find(','));
+      habits.travel_slope = std::tan(number<double>(first).value_or(0) * std::numbers::pi / 180);
+    }
     if (entry.key == "ooze_prevention") habits.stands_aside = entry.value == "1";
     if (entry.key != "gcode_flavor") continue;
     habits.e_of_each_tool = sailfish || makerware;

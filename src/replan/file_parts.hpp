@@ -29,6 +29,7 @@ struct FileHabits {
   bool e_of_each_tool = false;     // as in RecoveredPrint
   bool says_on_and_off = false;    // likewise
   bool stands_aside = false;       // at changes of tools: ooze_prevention
+  double travel_slope = 0;         // mm a mm, of ways on which nozzles are lifted; 0: it is not told
   bool says_roles_behind = false;  // roads say behind them what they are: verbose comments of Slic3r
 };
 FileHabits habits_of_file(const GcodePrint& print);

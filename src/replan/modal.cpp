@@ -46,7 +46,7 @@ std::optional<ModalLine> of_comment(std::string_view comment) {
                                                                                   {"HEIGHT:", height_key},
                                                                                   {"LAYER_HEIGHT:", height_key},
                                                                                   {"MESH:", mesh_key},
-                                                                                  {"OBJECT_ID:", "5 object id"}}};
+                                                                                  {"OBJECT_ID:", object_id_key}}};
   for (const auto& [begin, key] : told)
     if (text.starts_with(begin)) return ModalLine{std::string(key)};
   if (text.starts_with("printing object ") || text.starts_with("start printing object")) return ModalLine{"0 ; object"};

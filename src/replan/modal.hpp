@@ -26,6 +26,7 @@ inline constexpr std::string_view type_key = "1 type";
 inline constexpr std::string_view width_key = "2 width";
 inline constexpr std::string_view height_key = "3 height";
 inline constexpr std::string_view mesh_key = "4 mesh";
+inline constexpr std::string_view object_id_key = "5 object id";
 
 /// What the line sets; nothing where it is no such line.
 struct ModalLine {

@@ -49,6 +49,7 @@ constexpr RefusedOption refused_options[] = {
     {"use_volumetric_e", "E in mm3 is not re-planned yet; switch it off in the slicer"},
     {"infill_first", "infill before perimeters is not re-planned yet; switch it off in the slicer"},
     {"ironing", "ironing is not re-planned yet; switch it off in the slicer"},
+    {"wall_sequence", "outer walls between inner ones are not re-planned; print them from the inside out or the outside in"},
 };
 
 /// 0 along the border of its zone, 1 the next loop inside, ...
@@ -299,6 +300,7 @@ namespace {
 
 /// Whether the option keeps nozzles from being lifted in some of the print's layers; 0 says nothing.
 bool lifts_in_some_layers(const IniEntry& entry, const GcodePrint& print) {
+  if (entry.key == "retract_lift_top") return entry.value.find("All ") == std::string::npos;
   const bool above = entry.key == "retract_lift_above", below = entry.key == "retract_lift_below";
   if (!above && !below) return false;
   for (std::string_view rest = entry.value; !rest.empty();) {
@@ -317,8 +319,9 @@ Config told_config(const GcodePrint& print, const Config* printer) {
         fmt::format("{}: it has no configuration block at its end; it is not known how far filament is drawn "
                     "back. Export the G-code again with it",
                     print.name));
-  const bool is_orca = print.facts.config_kind == "orcaslicer";
-  std::vector<IniEntry> told = is_orca ? from_orca(print.facts.config) : print.facts.config;
+  std::vector<IniEntry> told = print.facts.config_kind == "orcaslicer"         ? from_orca(print.facts.config)
+                               : print.facts.dialect == Dialect::superslicer ? from_superslicer(print.facts.config)
+                                                                              : print.facts.config;
   for (const IniEntry& entry : told)
     for (const RefusedOption& option : refused_options)
       if (entry.key == option.key && is_set(entry.value))

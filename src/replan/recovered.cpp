@@ -46,6 +46,7 @@ class Recovery {
     refuse_own_changes();
     for (; at_ < r_.end; at_ = next_) in_layers();
     part_headers(r_, changed_, print_, words_);
+    if (r_.lift_slope > 0 && habits.travel_slope > 0) r_.lift_slope = habits.travel_slope;
     finish();
     r_.states = std::move(states_).all();
     return std::move(r_);
@@ -146,6 +147,7 @@ class Recovery {
       ++r_.elapsed_lines;
       return;
     }
+    if (std::ranges::find(words_.of_ways, raw_) != words_.of_ways.end()) return;
     if (begins_with_one_of(raw_, words_.layer_begins)) {
       const bool may_follow = !words_.layer_begins[1].empty() && !raw_.starts_with(words_.layer_begins[1]);
       if (has_layer_mark_ && !may_follow) refuse(at_, "a layer without roads");
@@ -256,6 +258,7 @@ class Recovery {
       return;
     }
     breaks_ = true;
+    top_z_mm_ = std::max(top_z_mm_, move.to_mm.z);
     if (across && has_tool_) travelled_after_tool_ = true;
     if (move.filament_mm < 0 && across) return wipe(move);
     if (move.filament_mm > 0 && across) refuse(at_, "filament is pushed on the way");
@@ -276,7 +279,7 @@ class Recovery {
     if (!across) return;
     way_.push_back({to_um(move.to_mm.x), to_um(move.to_mm.y)});
     way_z_.push_back(to_um(move.to_mm.z));
-    way_state_ = states_.index();
+    if (way_.size() == 1) way_state_ = states_.index();
     if (const double rise = move.to_mm.z - from.z; rise > 0 && move.known_start) {
       rises_on_way_ = true;
       const double slope = rise / std::hypot(move.to_mm.x - from.x, move.to_mm.y - from.y);
@@ -428,6 +431,7 @@ class Recovery {
                                      .spiral = std::move(spiral_),
                                      .way_state = way_state_,
                                      .leaving = {},
+                                     .lifted = top_z_mm_ > from.z + same_height_mm,
                                      .drawn_back = drawn_back_ || has_tool_,
                                      .back_after = has_tool_ ? 0 : back_after_,
                                      .forward_after = forward_after_.value_or(~std::size_t{0})});
@@ -439,7 +443,7 @@ class Recovery {
     back_after_ = 0;
     rises_after_.reset();
     forward_after_.reset();
-    rise_mm_ = 0;
+    rise_mm_ = top_z_mm_ = 0;
   }
 
   /// The change of tools as a stop on the way: where it stands, and its lines.
@@ -524,6 +528,7 @@ class Recovery {
   std::size_t back_after_ = 0;
   std::optional<std::size_t> rises_after_, forward_after_;  // so many places of the way
   double rise_mm_ = 0;                                      // above the layer
+  double top_z_mm_ = 0;                                     // of the nozzle
   std::vector<ChangedHeader> changed_;
 };
 

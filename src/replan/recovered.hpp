@@ -69,7 +69,8 @@ struct RecoveredRun {
   std::vector<FilePoint> wipe_from = {};        // passed before its wipe
   std::vector<WipeMove> wipe = {};              // after it
   std::int64_t back_before_wipe_e5 = 0;         // drawn back on the spot before
-  bool drawn_back = false;                      // on the way here,
+  bool lifted = false;                          // the nozzle, on the way here
+  bool drawn_back = false;                      // likewise, filament,
   std::size_t back_after = 0;                   // where so many places of the way were passed,
   std::size_t forward_after = ~std::size_t{0};  // and pushed forward again after so many; else where it ends
 };

@@ -214,8 +214,8 @@ class Writing {
 
   /// As the file does on the way to that run, and lifts.
   void draw_back_before(const RecoveredRun& run) {
-    if (!rises_by_itself(run)) return draw_back();
-    draw_back(extruder().retract_length_mm, 0);
+    const bool itself = rises_by_itself(run);
+    draw_back(extruder().retract_length_mm, itself || !run.lifted ? 0 : extruder().retract_lift_mm);
     if (!out_.is_lifted()) out_.rise(run.spiral);
   }
   static bool rises_by_itself(const RecoveredRun& run) { return !run.spiral.empty() || !run.way_z_um.empty(); }
@@ -284,7 +284,7 @@ class Writing {
       return out_.set_z(source.z_mm);
     }
     if (!rises_by_itself(first)) {
-      if (first.drawn_back) draw_back();
+      if (first.drawn_back) draw_back_before(first);
       return out_.set_z(source.z_mm);
     }
     if (first.drawn_back) draw_back(extruder().retract_length_mm, 0);
@@ -316,6 +316,7 @@ class Writing {
     const Extruder& e = config_.extruders[std::size_t(path.extruder)];
     const bool draws_back = way_um > e.retract_before_travel_mm * 1e3 - 1;
     if (draws_back && !(run != nullptr && goes_so_in_file(*run, way_um))) draw_back();
+    if (out_.is_known()) out_.rises_over(way_um);
     for (const FilePoint p : way) out_.travel(p);
   }
 
@@ -456,6 +457,7 @@ class Writing {
   static ModalState of_no_object(ModalState state) {
     for (auto& [key, text] : state)
       if (key.starts_with("0 ")) text.clear();
+    state.erase(std::string(object_id_key));
     return state;
   }
 
