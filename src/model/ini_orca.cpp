@@ -152,7 +152,8 @@ std::vector<IniEntry> from_orca(const std::vector<IniEntry>& entries) {
   for (const IniEntry& entry : entries) {
     const std::string_view key = entry.key, value = entry.value;
     if (key == "ironing_type") put("ironing", value == "no ironing" ? "0" : "1", entry);
-    const auto said = std::ranges::find_if(values, [&](const OrcaValue& v) { return v.orca == key && v.value == value; });
+    const auto said =
+        std::ranges::find_if(values, [&](const OrcaValue& v) { return v.orca == key && v.value == value; });
     if (said != values.end()) {
       put(said->ours, said->text, entry);
     } else if (const std::string_view ours = ours_of(names, key); !ours.empty()) {

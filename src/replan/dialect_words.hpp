@@ -19,7 +19,7 @@ struct DialectWords {
   std::string_view own_type;                     // of the rampart
   std::string_view own_object;                   // what belongs to no object; empty: labels are ended instead
   std::string_view elapsed;                      // the time so far, after each layer
-  std::string_view width = ";WIDTH:", height = ";HEIGHT:";                    // of roads
+  std::string_view width = ";WIDTH:", height = ";HEIGHT:";  // of roads
   std::string_view wipe_begins = ";WIPE_START", wipe_ends = ";WIPE_END";
   std::string_view tower = ";TYPE:Wipe tower";   // begins a piece of it
   std::array<std::string_view, 3> of_ways = {};  // comments that stand before, in and behind travel

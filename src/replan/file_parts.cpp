@@ -64,8 +64,8 @@ std::size_t line_end(std::string_view text, std::size_t at) {
 
 std::size_t behind_wipe(std::string_view text, std::size_t at, const DialectWords& words) {
   // Moves, and what OrcaSlicer tells between road and wipe: that the object ends, another acceleration.
-  constexpr std::array<std::string_view, 6> passed = {"\n", "G", "; stop printing object", "EXCLUDE_OBJECT_END", "M204",
-                                                      "M625"};
+  constexpr std::array<std::string_view, 6> passed = {"\n",   "G",   "; stop printing object", "EXCLUDE_OBJECT_END",
+                                                      "M204", "M625"};
   std::size_t behind = at;
   for (std::size_t p = at; p < text.size() && behind == at; p = line_end(text, p)) {
     const std::string_view rest = text.substr(p);

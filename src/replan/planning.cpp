@@ -18,6 +18,7 @@
 #include "printed/regions.hpp"
 #include "printed/zones.hpp"
 #include "protection.hpp"
+#include "replan/change_places.hpp"
 #include "replan/closed_runs.hpp"
 #include "replan/columns.hpp"
 #include "replan/cura.hpp"
@@ -49,7 +50,8 @@ constexpr RefusedOption refused_options[] = {
     {"use_volumetric_e", "E in mm3 is not re-planned yet; switch it off in the slicer"},
     {"infill_first", "infill before perimeters is not re-planned yet; switch it off in the slicer"},
     {"ironing", "ironing is not re-planned yet; switch it off in the slicer"},
-    {"wall_sequence", "outer walls between inner ones are not re-planned; print them from the inside out or the outside in"},
+    {"wall_sequence",
+     "outer walls between inner ones are not re-planned; print them from the inside out or the outside in"},
 };
 
 /// 0 along the border of its zone, 1 the next loop inside, ...
@@ -319,9 +321,9 @@ Config told_config(const GcodePrint& print, const Config* printer) {
         fmt::format("{}: it has no configuration block at its end; it is not known how far filament is drawn "
                     "back. Export the G-code again with it",
                     print.name));
-  std::vector<IniEntry> told = print.facts.config_kind == "orcaslicer"         ? from_orca(print.facts.config)
+  std::vector<IniEntry> told = print.facts.config_kind == "orcaslicer"       ? from_orca(print.facts.config)
                                : print.facts.dialect == Dialect::superslicer ? from_superslicer(print.facts.config)
-                                                                              : print.facts.config;
+                                                                             : print.facts.config;
   for (const IniEntry& entry : told)
     for (const RefusedOption& option : refused_options)
       if (entry.key == option.key && is_set(entry.value))
@@ -348,8 +350,8 @@ Config planning_config(const GcodePrint& print, const AuditMachine& machine, con
   config.planner = Planner::clean;
   config.seam_position = SeamPosition::hidden;
   config.join_perimeters = true;
-  config.heater_off_after_last_use = false;  // the file's own temperatures hold
-  config.rampart = RampartShape::automatic;
+  config.heater_off_after_last_use = false;   // the file's own temperatures hold
+  config.rampart = RampartShape::conforming;  // walls that wipe and fill, be it after a tool was parked
   config.refill_mode = RefillMode::model;
   return config;
 }
@@ -462,8 +464,14 @@ ReplannedLayers planned_layers(const RecoveredPrint& recovered, const GcodePrint
                       print.name, k + 1));
     Path last = own->last();
     Layer layer = with_loops_apart(std::move(*own).release(), recovered.layers[std::size_t(k)], print, machine, leads);
-    result.push_back(with_leads(std::move(layer), unpacked(scene.slices.regions[std::size_t(k)]),
-                                below.points.empty() ? nullptr : &below, leads));
+    const std::vector<Polygons> regions = unpacked(scene.slices.regions[std::size_t(k)]);
+    const Path* before = below.points.empty() ? nullptr : &below;
+    layer = with_leads(std::move(layer), regions, before, leads);
+    if (config.idle_nozzle != IdleNozzle::same_height && scene.stops[std::size_t(k)].empty())
+      layer = with_change_places(std::move(layer), regions,
+                                 k > 0 ? unpacked(scene.slices.regions[std::size_t(k) - 1]) : std::vector<Polygons>{},
+                                 before);
+    result.push_back(std::move(layer));
     below = std::move(last);
     own.reset();
     progress.advance("planning", double(k + 1) / count);

@@ -119,8 +119,9 @@ class Recovery {
   /// Bambu's printers change filament in a way of their own, which drives about.
   void refuse_own_changes() const {
     if (const std::size_t at = text_.find("\nM620 ", r_.begin); at < r_.end)
-      refuse(at + 1, "the printer changes its filament by M620, which is not re-planned: it goes only where a tool change "
-                     "(T) moves nothing else");
+      refuse(at + 1,
+             "the printer changes its filament by M620, which is not re-planned: it goes only where a tool change "
+             "(T) moves nothing else");
   }
 
   void in_layers() {
@@ -517,7 +518,7 @@ class Recovery {
   std::vector<std::string> spiral_;
   bool rises_on_way_ = false;
   std::uint32_t way_state_ = 0;
-  std::size_t behind_spiral_ = 0;  // move
+  std::size_t behind_spiral_ = 0;                  // move
   std::size_t mark_in_gap_ = 0, tool_in_gap_ = 0;  // where the layer begins and the tool changes
   bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false, drawn_back_ = false;
   bool travelled_after_tool_ = false;

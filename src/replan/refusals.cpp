@@ -48,7 +48,8 @@ std::optional<std::string> fault_of_command(const GcodeLine& line, std::string_v
 }
 
 std::optional<std::string> fault_of_road(const GcodeMove& move, Vec3 from, int tool, const DialectWords& words) {
-  if (std::abs(from.z - move.to_mm.z) > same_height_mm) return "a road that rises (vase mode, scarf seam) is not re-planned; switch it off in the slicer";
+  if (std::abs(from.z - move.to_mm.z) > same_height_mm)
+    return "a road that rises (vase mode, scarf seam) is not re-planned; switch it off in the slicer";
   if (move.tool != move.feeds || move.tool != tool) return "a road of another tool than the one in use";
   switch (move.role) {
     case Role::wipe_tower:

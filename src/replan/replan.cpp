@@ -27,9 +27,10 @@ void require_known_dialect(const GcodePrint& print) {
   if (words_of(print) != nullptr) return;
   if (print.facts.dialect == Dialect::cleancolor)
     throw Error(fmt::format("{}: cleancolor made it, so it is planned already", print.name));
-  throw Error(fmt::format("{}: made by {}; only files of PrusaSlicer, SuperSlicer, Slic3r, "
-                          "OrcaSlicer, BambuStudio and Cura are re-planned so far",
-                          print.name, producer_of(print)));
+  throw Error(
+      fmt::format("{}: made by {}; only files of PrusaSlicer, SuperSlicer, Slic3r, "
+                  "OrcaSlicer, BambuStudio and Cura are re-planned so far",
+                  print.name, producer_of(print)));
 }
 
 /// A file that was cut off has no code that switches the heaters off.

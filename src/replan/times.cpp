@@ -41,9 +41,9 @@ void correct_cura_head(std::string& text, double share) {
 
 /// The slicer's own estimates, longer by as much as the print is.
 void correct_config_estimates(std::string& text, double share) {
-  constexpr std::array<std::string_view, 4> tags = {"\n; estimated printing time (normal mode) = ",
-                                                    "\n; estimated printing time (silent mode) = ",
-                                                    "\n; model printing time: ", "; total estimated time: "};
+  constexpr std::array<std::string_view, 4> tags = {
+      "\n; estimated printing time (normal mode) = ", "\n; estimated printing time (silent mode) = ",
+      "\n; model printing time: ", "; total estimated time: "};
   for (const std::string_view tag : tags) {
     const std::size_t at = text.rfind(tag);
     if (at == text.npos) continue;

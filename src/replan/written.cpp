@@ -310,7 +310,11 @@ class Writing {
     for (const Vec2 p : path.travel) way.push_back(in_file(p, path.extruder));
     way.push_back(start);
     for (const FilePoint p : way) way_um += length_um(from, p), from = p;
-    if (changes) change_tool(path.extruder);
+    if (changes) {
+      drive_before_change(path);
+      way.erase(way.begin(), way.begin() + std::ptrdiff_t(path.travel_before_change));
+      change_tool(path.extruder);
+    }
     const auto next = run != nullptr ? run->way_state : way_state_[layer_][std::size_t(path.extruder)];
     if (words_.drives_otherwise && way_um > 0) out_.set(of_moving(recovered_.states[next]));
     const Extruder& e = config_.extruders[std::size_t(path.extruder)];
@@ -318,6 +322,13 @@ class Writing {
     if (draws_back && !(run != nullptr && goes_so_in_file(*run, way_um))) draw_back();
     if (out_.is_known()) out_.rises_over(way_um);
     for (const FilePoint p : way) out_.travel(p);
+  }
+
+  /// The former tool, drawn back, to where the new one is taken.
+  void drive_before_change(const Path& path) {
+    if (path.travel_before_change == 0) return;
+    draw_back_for_change();
+    for (std::size_t i = 0; i < path.travel_before_change; ++i) out_.travel(in_file(path.travel[i], out_.tool()));
   }
 
   /// Whether the file goes between this run and the one printed last, this way or the other, no shorter and without

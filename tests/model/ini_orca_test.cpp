@@ -25,7 +25,7 @@ const std::vector<IniEntry> orca = {{"nozzle_diameter", "0.6,0.6", 1},
                                     {"outer_wall_line_width", "110%", 6},
                                     {"inner_wall_line_width", "0.62", 7},
                                     {"printable_area", "0x0,300x0,300x200,0x200", 8},
-                                    {"machine_max_speed_x", "500,200", 9},
+                                    {"machine_max_speed_x", "450,200", 9},
                                     {"gcode_flavor", "klipper", 10},
                                     {"wall_sequence", "outer wall/inner wall", 11},
                                     {"sparse_infill_pattern", "crosshatch", 12},
@@ -42,7 +42,7 @@ TEST(OrcaNames, BecomeThoseOfPrusaSlicer) {
   EXPECT_DOUBLE_EQ(config.extruders[0].retract_lift_mm, 0.4);
   EXPECT_DOUBLE_EQ(config.extruders[1].retract_lift_mm, 0.2);
   EXPECT_DOUBLE_EQ(config.extruders[1].extrusion_multiplier, 0.95);
-  EXPECT_DOUBLE_EQ(config.machine_max_feedrate_x_mm_s, 500);
+  EXPECT_DOUBLE_EQ(config.machine_max_feedrate_mm_s.x, 450);
   EXPECT_EQ(config.bed_shape_mm.size(), 4u);
   EXPECT_TRUE(config.external_perimeters_first);
 }

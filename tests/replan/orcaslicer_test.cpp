@@ -100,7 +100,8 @@ TEST(ReplanOrcaSlicer, TakesLiftsInASpiralOnArcsForLifts) {
 
 TEST(ReplanOrcaSlicer, LeavesItsOwnWallsOutOfObjects) {
   const std::array<std::array<std::string, 3>, 2> all = {
-      {{"orcaslicer-klipper.gcode", "EXCLUDE_OBJECT_START", "EXCLUDE_OBJECT_END"}, {"bambustudio.gcode", "M624", "M625"}}};
+      {{"orcaslicer-klipper.gcode", "EXCLUDE_OBJECT_START", "EXCLUDE_OBJECT_END"},
+       {"bambustudio.gcode", "M624", "M625"}}};
   for (const auto& [name, begin, end] : all) {
     SCOPED_TRACE(name);
     bool inside = false;
@@ -124,7 +125,8 @@ TEST(ReplanOrcaSlicer, WritesEachSpellingAsItIs) {
                     other = replanned_text(fixture("orcaslicer.gcode")).text;
   for (const char* plain : {"\n;TYPE:", "\n;WIDTH:", "\n;HEIGHT:", "\n;WIPE_START", "\n;LAYER_CHANGE"})
     EXPECT_EQ(bambu.find(plain), bambu.npos) << plain;
-  for (const char* spelling : {"\n; FEATURE:", "\n; LINE_WIDTH:", "\n; LAYER_HEIGHT:", "\n; WIPE_START", "\n; CHANGE_LAYER"})
+  for (const char* spelling :
+       {"\n; FEATURE:", "\n; LINE_WIDTH:", "\n; LAYER_HEIGHT:", "\n; WIPE_START", "\n; CHANGE_LAYER"})
     EXPECT_EQ(other.find(spelling), other.npos) << spelling;
   EXPECT_NE(bambu.find("; FEATURE: Skirt\n"), bambu.npos);
   EXPECT_NE(other.find(";TYPE:Skirt\n"), other.npos);
@@ -141,7 +143,8 @@ TEST(ReplanOrcaSlicer, TellsTheTimesInTheHeadAnew) {
 }
 
 TEST(ReplanOrcaSlicer, WaitsForEachToolWhereTheFileDoes) {
-  const std::vector<std::string> lines = lines_of(layers_of(replanned_text(fixture("orcaslicer.gcode")).text, ";LAYER"));
+  const std::vector<std::string> lines =
+      lines_of(layers_of(replanned_text(fixture("orcaslicer.gcode")).text, ";LAYER"));
   int changes = 0;
   for (std::size_t i = 0; i + 2 < lines.size(); ++i) {
     if (lines[i] != "T0" && lines[i] != "T1") continue;
@@ -154,11 +157,12 @@ TEST(ReplanOrcaSlicer, WaitsForEachToolWhereTheFileDoes) {
 TEST(ReplanOrcaSlicer, WithoutItsTowerIsDrivenAsTheFileDrives) {
   const std::string text = fixture("orcaslicer-tower.gcode");
   const std::string fast = with_line(text, "SET_VELOCITY_LIMIT ACCEL=777", "; CP TOOLCHANGE WIPE");
-  const std::string again = with_line(fast, "SET_VELOCITY_LIMIT ACCEL=1000", "; CP TOOLCHANGE END", fast.find("ACCEL=777"));
+  const std::string again =
+      with_line(fast, "SET_VELOCITY_LIMIT ACCEL=1000", "; CP TOOLCHANGE END", fast.find("ACCEL=777"));
   ASSERT_NE(fast, again);
   const std::string out = replanned_text(again, {.removes_tower = true}).text;
   EXPECT_EQ(out.find("ACCEL=777"), out.npos);
-  EXPECT_EQ(out.find("; CP TOOLCHANGE"), out.npos);
+  EXPECT_EQ(out.find("; CP TOOLCHANGE WIPE"), out.npos);
 }
 
 TEST(ReplanOrcaSlicer, RefusesWhatItDoesNotKnowForSure) {
