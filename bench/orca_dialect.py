@@ -278,6 +278,8 @@ class Rewriter:
         if self.options.bambu and seconds:
             header.append(f"; model printing time: {seconds}; total estimated time: {seconds}")
             body.remove(estimate)
+            used = next((line for line in body if line.startswith("; filament used [mm] = ")), "")
+            header.append("; total filament length [mm] : " + used.partition("= ")[2].replace(", ", ","))
         header += [f"; total layer number: {self.layer}", f"; filament_diameter: {self.config['filament_diameter']}",
                    f"; max_z_height: {self.z:.2f}", "; filament: 1,2", "; HEADER_BLOCK_END", ""]
         begin = ["; EXECUTABLE_BLOCK_START"]

@@ -142,6 +142,15 @@ TEST(ReplanOrcaSlicer, TellsTheTimesInTheHeadAnew) {
   EXPECT_EQ(result.text.find("; total estimated time: ", at) < result.text.find('\n', at), true);
 }
 
+TEST(ReplanOrcaSlicer, TellsTheFilamentInTheHeadAnew) {
+  const auto told_mm = [](const std::string& text) {
+    const std::string tag = "; total filament length [mm] : ";
+    return std::stod(text.substr(text.find(tag) + tag.size()));
+  };
+  const std::string before = fixture("bambustudio.gcode");
+  EXPECT_GT(told_mm(replanned_text(before).text), 1.2 * told_mm(before));  // the rampart's
+}
+
 TEST(ReplanOrcaSlicer, WaitsForEachToolWhereTheFileDoes) {
   const std::vector<std::string> lines =
       lines_of(layers_of(replanned_text(fixture("orcaslicer.gcode")).text, ";LAYER"));

@@ -1,6 +1,7 @@
 ; HEADER_BLOCK_START
 ; BambuStudio 02.03.01.51
 ; model printing time: 1m 30s; total estimated time: 1m 30s
+; total filament length [mm] : 49.02,49.02
 ; total layer number: 6
 ; filament_diameter: 1.75,1.75
 ; max_z_height: 1.80
