@@ -34,7 +34,7 @@ Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodeP
              const AuditMachine& machine);
 
 struct ReplanOptions {
-  bool plans = true;  // false: order, starts and ways stay those of the file
+  bool plans = true;         // false: order, starts and ways stay those of the file
   bool keeps_seams = false;  // loops begin where they do in the file, or end there and run the other way
   RampartExtent rampart = RampartExtent::all;
   int threads = 1;

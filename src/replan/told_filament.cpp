@@ -112,9 +112,9 @@ void retell_lines(std::string& text, const std::vector<double>& share) {
 
 /// Cura and BambuStudio.
 void retell_head(std::string& text, const std::vector<double>& share) {
-  constexpr std::array<std::string_view, 4> tags = {";Filament used:", "; total filament length [mm] :",
-                                                    "; total filament volume [cm^3] :",
-                                                    "; total filament weight [g] :"};
+  constexpr std::array<std::string_view, 4> tags = {
+      ";Filament used:", "; total filament length [mm] :", "; total filament volume [cm^3] :",
+      "; total filament weight [g] :"};
   for (const std::string_view tag : tags) {
     const std::size_t at = std::string_view(text).substr(0, head_bytes).find(tag);
     if (at != text.npos) retell_list(text, at + tag.size(), share);
