@@ -60,7 +60,7 @@ def extrusions(gcode):
     """
     at, relative, tool, kind = {"X": 0.0, "Y": 0.0, "Z": 0.0, "E": 0.0}, False, 0, ""
     for line in gcode.read_text(errors="replace").splitlines():
-        if line.startswith((";TYPE:", "; TYPE:")):
+        if line.startswith((";TYPE:", "; TYPE:", "; FEATURE:")):
             kind = line.split(":", 1)[1].lower().replace("unknown", "")
         elif line.startswith(("G0", "G1 ", "G2 ", "G3 ")):
             words = {axis: float(value) for axis, value in WORD.findall(line.split(";", 1)[0])}

@@ -65,7 +65,7 @@ std::string example(const GcodePrint& print) {
   }
   throw Error(
       fmt::format("{}: {} nozzles print, and the file does not say where they are; choose the printer with --printer, "
-                  "or say it: {}",
+                  "or say it: {}; where idle nozzles leave the print: --idle-nozzle parked",
                   print.name, print.tools, example(print)));
 }
 
@@ -100,6 +100,9 @@ class Finder {
       if (!print_.facts.offsets_in) told_in_ = OffsetsIn::firmware;
     } else if (tools == 1) {
       take({{0, 0}}, "one nozzle");
+    } else if (request_.idle_nozzle == IdleNozzle::parked || request_.idle_nozzle == IdleNozzle::docked) {
+      take(std::vector<Vec2>(tools), "--idle-nozzle");  // nobody asks where they are
+      if (!print_.facts.offsets_in) told_in_ = OffsetsIn::firmware;
     } else {
       guess();
     }

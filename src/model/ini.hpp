@@ -24,6 +24,12 @@ struct IniResult {
   std::vector<std::string> ignored;  // "support_material = 1": not known here, and it would have changed the print
 };
 
+/// The configuration block of OrcaSlicer or BambuStudio, and that of SuperSlicer, in the names and values of
+/// PrusaSlicer: printer, filament, widths, speeds, and what a print can be refused for. What is not among them
+/// (patterns, supports, ...) is left out.
+std::vector<IniEntry> from_orca(const std::vector<IniEntry>& entries);
+std::vector<IniEntry> from_superslicer(const std::vector<IniEntry>& entries);
+
 /// The entries of an .ini file in its order.
 ///
 /// Throws Error("file:line: ...") for a line without "=" and for a section, as in a bundle of several profiles.

@@ -139,7 +139,9 @@ PlannedLayer::PlannedLayer(Layer layer, OrderState& state, const Config& config,
       last = paths.size();
     }
     const auto at = [&](std::size_t k) { return paths.begin() + std::ptrdiff_t(k); };
-    std::ranges::move(planned({at(first), at(last)}, nozzles, scene), std::back_inserter(layer_.paths));
+    const Path* before = layer_.paths.empty() ? nullptr : &layer_.paths.back();
+    std::vector<Path> run = planned({at(first), at(last)}, nozzles, scene, before);
+    std::ranges::move(run, std::back_inserter(layer_.paths));
   }
 }
 
@@ -165,10 +167,14 @@ Vec2 stop_mm(const Path& path, const Config& config) {
 
 }  // namespace
 
-void PlannedLayer::find_clear_ways(std::span<Path> paths, const Run& run) const {
-  for (std::size_t k = 1; k < paths.size(); ++k) {
+Vec2 PlannedLayer::stop_mm(const Path& path) const {
+  return cleancolor::stop_mm(path, *config_) - offset_mm(path);
+}
+
+void PlannedLayer::find_clear_ways(std::span<Path> paths, const Run& run, const Path* before) const {
+  for (std::size_t k = before != nullptr ? 0 : 1; k < paths.size(); ++k) {
     Path& path = paths[k];
-    std::vector<Vec2> way{stop_mm(paths[k - 1], *config_) - offset_mm(paths[k - 1])};
+    std::vector<Vec2> way{stop_mm(k > 0 ? paths[k - 1] : *before)};
     for (const Vec2 p : path.travel) way.push_back(p - offset_mm(path));
     way.push_back(path.start() - offset_mm(path));
     if (!crosses(run.cost, way)) continue;
@@ -178,7 +184,7 @@ void PlannedLayer::find_clear_ways(std::span<Path> paths, const Run& run) const 
 }
 
 std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vector<int>& nozzles,
-                                        const PlanScene& scene) {
+                                        const PlanScene& scene, const Path* before) {
   std::vector<TravelCost::Nozzle> hanging;
   for (const int e : nozzles) {
     Polygons reach = e < int(scene.reach.size()) ? scene.reach[std::size_t(e)] : Polygons{};
@@ -194,6 +200,7 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
   run.roads = roadmap(paths, run.cost, {.fixed_seams = !hidden_seams, .leads = joins});
   const auto walls = wall_cost(paths, run.cost, scene.site.part);
   TourOptions options{.from_mm = {}, .entry_cost = walls};
+  if (before != nullptr) options.from_mm = stop_mm(*before);
   if (is_paper) options.slack_mm = unlimited_mm;
   std::vector<Visit> visits = tour(run.roads, paths, run.cost, options);
   if (config_->print_order == PrintOrder::exposure && !is_paper)
@@ -205,10 +212,10 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
     const Vec2 offset = offset_mm(paths[k]);
     paths[k] = walked(std::move(paths[k]), run.roads, k, visits[k], offset);
   }
-  if (!is_paper) find_clear_ways(paths, run);
+  if (!is_paper) find_clear_ways(paths, run, before);
   if (config_->wipe_passes && !is_paper && nozzles.size() > 1) {
     WipeOptions wipes = wipe_options(*config_, paths.front().extruder);
-    for (const Path& path : paths) wipes.stops_mm.push_back(stop_mm(path, *config_) - offset_mm(path));
+    for (const Path& path : paths) wipes.stops_mm.push_back(stop_mm(path));
     paths = with_wipes(std::move(paths), run.roads, run.cost, {}, wipes);
   }
   if (config_->refill_mode != RefillMode::off && layer_.index >= config_->refill_skipped_layers)
@@ -219,7 +226,7 @@ std::vector<Path> PlannedLayer::planned(std::vector<Path> paths, const std::vect
 
 void PlannedLayer::arrive_from(const Layer& below) {
   if (!first_ || below.paths.empty()) return;
-  const Vec2 from = stop_mm(below.paths.back(), *config_) - offset_mm(below.paths.back());
+  const Vec2 from = stop_mm(below.paths.back());
   if (!first_->begin.empty()) {
     const std::size_t begun_anew =
         begin_at(cheapest_start(first_->roads, first_->begin.front(), first_->cost, first_->to_go, from));

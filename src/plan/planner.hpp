@@ -63,11 +63,14 @@ class PlannedLayer {
   struct Run;
   std::size_t begin_at(std::uint32_t entry);  // how many paths are begun anew
   Vec2 offset_mm(const Path& path) const;
-  std::vector<Path> planned(std::vector<Path> paths, const std::vector<int>& nozzles, const PlanScene& scene);
+  /// before: the path that ends where the first begins; none: not known yet.
+  std::vector<Path> planned(std::vector<Path> paths, const std::vector<int>& nozzles, const PlanScene& scene,
+                            const Path* before);
+  Vec2 stop_mm(const Path& path) const;  // of the carriage
 
   /// Joined loops and leads begin and end beside the places through which the tour was found, so that the ways there
   /// may graze another colour: these, and any other that crosses one, are found again.
-  void find_clear_ways(std::span<Path> paths, const Run& run) const;
+  void find_clear_ways(std::span<Path> paths, const Run& run, const Path* before = nullptr) const;
 
   Layer layer_;
   const Config* config_;

@@ -17,9 +17,10 @@ namespace {
 
 // ;TYPE: of PrusaSlicer and its relatives, ;TYPE: and FEATURE: of OrcaSlicer and BambuStudio, ;TYPE: of Cura and
 // ideaMaker.
-constexpr std::array<RoleName, 56> type_names = {{
+constexpr std::array<RoleName, 57> type_names = {{
     {"External perimeter", Role::external_perimeter},
     {"Perimeter", Role::perimeter},
+    {"Internal perimeter", Role::perimeter},
     {"Overhang perimeter", Role::overhang_perimeter},
     {"Internal infill", Role::internal_infill},
     {"Solid infill", Role::solid_infill},

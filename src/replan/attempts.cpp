@@ -68,7 +68,7 @@ Attempt Attempts::planned(RampartExtent extent) const {
                         {.as_in_file = request_.keeps_order, .header = header_line(request_, planned.has_rampart)});
   }
   made.print = read_gcode(made.text, print_.name);
-  const DialectWords& words = *words_of(print_.facts.dialect);
+  const DialectWords& words = *words_of(print_);
   if (words.times_heaters && sets_temperatures(recovered_, print_)) {
     made.text = with_heaters(recovered_, print_, made.print, machine_, words.layer_begins.front());
     made.print = read_gcode(made.text, print_.name);

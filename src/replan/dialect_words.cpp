@@ -9,6 +9,34 @@ constexpr DialectWords prusaslicer = {.layer_begins = {";LAYER_CHANGE", ";BEFORE
                                       .own_object = {},
                                       .elapsed = {}};
 
+constexpr DialectWords superslicer = {.layer_begins = {";LAYER_CHANGE", ";BEFORE_LAYER_CHANGE"},
+                                      .header_ends = {";HEIGHT:", ";Z:"},
+                                      .own_type = ";TYPE:Skirt",
+                                      .own_object = {},
+                                      .elapsed = {},
+                                      .of_ways = {"; acceleration to travel", "; decel to extrusion", "; end travel"},
+                                      .drives_otherwise = true};
+
+constexpr DialectWords orcaslicer = {.layer_begins = {";LAYER_CHANGE", ";BEFORE_LAYER_CHANGE"},
+                                     .header_ends = {";HEIGHT:", ";Z:"},
+                                     .own_type = ";TYPE:Skirt",
+                                     .own_object = {},
+                                     .elapsed = {},
+                                     .tower = ";TYPE:Prime tower",
+                                     .drives_otherwise = true};
+
+constexpr DialectWords bambustudio = {.layer_begins = {"; CHANGE_LAYER", {}},
+                                      .header_ends = {"; LAYER_HEIGHT:", "; Z_HEIGHT:"},
+                                      .own_type = "; FEATURE: Skirt",
+                                      .own_object = {},
+                                      .elapsed = {},
+                                      .width = "; LINE_WIDTH: ",
+                                      .height = "; LAYER_HEIGHT: ",
+                                      .wipe_begins = "; WIPE_START",
+                                      .wipe_ends = "; WIPE_END",
+                                      .tower = "; FEATURE: Prime tower",
+                                      .drives_otherwise = true};
+
 constexpr DialectWords cura = {.layer_begins = {";LAYER:", {}},
                                .header_ends = {},
                                .own_type = ";TYPE:SKIRT",
@@ -26,11 +54,16 @@ constexpr DialectWords cura = {.layer_begins = {";LAYER:", {}},
 
 }  // namespace
 
-const DialectWords* words_of(Dialect dialect) {
-  switch (dialect) {
+const DialectWords* words_of(const GcodePrint& print) {
+  switch (print.facts.dialect) {
     case Dialect::prusaslicer:
     case Dialect::slic3r:
       return &prusaslicer;
+    case Dialect::superslicer:
+      return &superslicer;
+    case Dialect::orcaslicer:
+    case Dialect::bambustudio:
+      return print.text->find("\n; CHANGE_LAYER") == std::string::npos ? &orcaslicer : &bambustudio;
     case Dialect::cura:
       return &cura;
     default:

@@ -19,6 +19,10 @@ struct DialectWords {
   std::string_view own_type;                     // of the rampart
   std::string_view own_object;                   // what belongs to no object; empty: labels are ended instead
   std::string_view elapsed;                      // the time so far, after each layer
+  std::string_view width = ";WIDTH:", height = ";HEIGHT:";  // of roads
+  std::string_view wipe_begins = ";WIPE_START", wipe_ends = ";WIPE_END";
+  std::string_view tower = ";TYPE:Wipe tower";   // begins a piece of it
+  std::array<std::string_view, 3> of_ways = {};  // comments that stand before, in and behind travel
   std::string_view travel = "G1";
   bool tells_sizes = true;          // ;WIDTH: and ;HEIGHT: before roads
   bool zeroes_e = true;             // after each drawing back
@@ -28,10 +32,11 @@ struct DialectWords {
   bool times_heaters = false;       // by how long a tool idles: replan/heaters.hpp
   bool lifts_at_change = false;     // also where it does not lift otherwise
   bool pushes_at_change = false;    // a new tool lowers and pushes part of its filament forward before it travels
+  bool drives_otherwise = false;    // ways have accelerations of their own, told before each
 };
 
-/// Nothing for dialects that are not re-planned.
-const DialectWords* words_of(Dialect dialect);
+/// Nothing for dialects that are not re-planned. OrcaSlicer has two, one for each kind of printer.
+const DialectWords* words_of(const GcodePrint& print);
 
 /// The tool that the line takes into use; negative: it is not understood; nothing: it is no such line.
 std::optional<int> tool_taken(const GcodeLine& line);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "gcode/text.hpp"
 
@@ -81,15 +82,56 @@ void Emitter::put_e(std::int64_t delta_e5) {
   put<5>(text_, 'E', recovered_.relative_e ? delta_e5 : count_e5());
 }
 
-void Emitter::travel(FilePoint to) {
-  if (known_ && to == at_) return;
-  text_ += words_.travel;
+void Emitter::put_place(FilePoint to) {
   if (!known_ || to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);
   if (!known_ || to.y_um != at_.y_um) put<3>(text_, 'Y', to.y_um);
-  put_feed(config_.travel_speed_mm_s * 60);
-  end_line();
   at_ = to;
   known_ = true;
+}
+
+void Emitter::travel(FilePoint to) {
+  if (known_ && to == at_) return;
+  if (rises_by_um_ > 0) return rise_on_the_way(to);
+  text_ += words_.travel;
+  put_place(to);
+  put_feed(config_.travel_speed_mm_s * 60);
+  end_line();
+}
+
+void Emitter::rises_over(double way_um) {
+  rise_slope_ = way_um > 0 ? std::max(recovered_.lift_slope, double(rises_by_um_) / way_um) : recovered_.lift_slope;
+}
+
+void Emitter::rise_on_the_way(FilePoint to) {
+  const std::int64_t by = rises_by_um_, from_z = z_um_ + lift_um_;
+  const double possible = rise_slope_ * std::hypot(double(to.x_um - at_.x_um), double(to.y_um - at_.y_um));
+  if (possible + 1 < double(by)) {
+    const std::int64_t risen = std::llround(possible);
+    travel(to, from_z + risen);
+    rises_by_um_ = by - risen;
+    return;
+  }
+  const double share = std::min(1., double(by) / possible);
+  travel({at_.x_um + std::llround(double(to.x_um - at_.x_um) * share),
+          at_.y_um + std::llround(double(to.y_um - at_.y_um) * share)},
+         from_z + by);
+  travel(to);
+}
+
+void Emitter::travel(FilePoint to, std::int64_t z_um) {
+  if (z_known_ && z_um == told_z_um_) {
+    rises_by_um_ = 0;
+    return travel(to);
+  }
+  text_ += words_.travel;
+  put_place(to);
+  put<3>(text_, 'Z', z_um);
+  put_feed(config_.travel_speed_mm_s * 60);
+  end_line();
+  told_z_um_ = z_um;
+  z_known_ = true;
+  lift_um_ = z_um - z_um_;
+  rises_by_um_ = 0;
 }
 
 void Emitter::move_z(std::int64_t to_um) {
@@ -109,14 +151,37 @@ void Emitter::set_z(double z_mm) {
   move_z(z_um_ + lift_um_);
 }
 
+void Emitter::take_z(double z_mm) {
+  z_um_ = std::llround(z_mm * 1e3);
+  lift_um_ = std::max<std::int64_t>(0, told_z_um_ - z_um_);
+}
+
 void Emitter::lift(double by_mm) {
-  if (lift_um_ > 0) return;
-  lift_um_ = std::llround(by_mm * 1e3);
+  if (is_lifted()) return;
+  rises_by_um_ = std::llround(by_mm * 1e3);
+  rise_slope_ = recovered_.lift_slope;
+  if (recovered_.lift_slope == 0 || !known_) rise_at_once();
+}
+
+void Emitter::rise_at_once() {
+  if (rises_by_um_ == 0) return;
+  lift_um_ += std::exchange(rises_by_um_, 0);
   move_z(z_um_ + lift_um_);
 }
 
+void Emitter::rise(std::span<const std::string> spiral) {
+  if (spiral.empty()) return;
+  rises_by_um_ = 0;
+  lines(spiral);
+  feed_ = -1;
+  GcodeLine last;
+  if (!parse_line(spiral.back(), last)) told_z_um_ = std::llround(last.value_or('Z', double(z_um_) / 1e3) * 1e3);
+  z_known_ = true;
+  lift_um_ = told_z_um_ - z_um_;
+}
+
 void Emitter::lower() {
-  lift_um_ = 0;
+  lift_um_ = rises_by_um_ = 0;
   move_z(z_um_);
 }
 
@@ -182,6 +247,7 @@ void Emitter::change_tool(int tool) {
 }
 
 void Emitter::change_tool(int tool, std::span<const std::string> leave, std::span<const std::string> enter) {
+  rise_at_once();
   zero_count();
   lines(leave);
   if (!enter.empty()) {

@@ -27,7 +27,7 @@ class Emitter {
 
   int tool() const { return tool_; }
   bool is_known() const { return known_; }
-  bool is_lifted() const { return lift_um_ > 0; }
+  bool is_lifted() const { return lift_um_ > 0 || rises_by_um_ > 0; }
   FilePoint at() const { return at_; }
   const ModalState& state() const { return state_; }
 
@@ -41,8 +41,12 @@ class Emitter {
   void header(std::span<const std::string> all);
 
   void travel(FilePoint to);
-  void set_z(double z_mm);  // of printing
-  void lift(double by_mm);
+  void travel(FilePoint to, std::int64_t z_um);
+  void set_z(double z_mm);                         // of printing
+  void take_z(double z_mm);                        // likewise, where the way there says it
+  void lift(double by_mm);                         // on the way where the file does so, else at once
+  void rises_over(double way_um);                  // the whole of what follows: the lift ends with it at the latest
+  void rise(std::span<const std::string> spiral);  // lines of the file
   void lower();
   void draw_back(std::int64_t to_e5);         // by so much in all
   void push_forward(std::int64_t to_e5 = 0);  // until so much is still drawn back
@@ -67,6 +71,9 @@ class Emitter {
   void end_line() { text_ += '\n'; }
   void zero_count();
   void move_z(std::int64_t to_um);
+  void put_place(FilePoint to);
+  void rise_at_once();
+  void rise_on_the_way(FilePoint to);
   void change_tool(int tool, std::span<const std::string> leave, std::span<const std::string> enter);
   std::int64_t& count_e5() { return count_e5_[recovered_.e_of_each_tool ? std::size_t(tool_) : 0]; }
   std::int64_t& back_e5() { return drawn_back_e5_[std::size_t(tool_)]; }
@@ -82,6 +89,8 @@ class Emitter {
   bool known_ = false, z_known_ = false;
   FilePoint at_;
   std::int64_t z_um_ = 0, told_z_um_ = 0, lift_um_ = 0;
+  std::int64_t rises_by_um_ = 0;  // on the next way,
+  double rise_slope_ = 0;         // so steeply
   std::vector<std::int64_t> count_e5_;
   std::int64_t feed_ = -1;  // 1e-3 mm/min
   std::vector<std::int64_t> drawn_back_e5_;

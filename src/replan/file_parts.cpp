@@ -3,11 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 
 #include "base/error.hpp"
+#include "model/text_scan.hpp"
 #include "replan/refusals.hpp"
 
 namespace cleancolor {
+namespace {
+
+constexpr double same_spot_mm = 0.002;
+
+}  // namespace
 
 void refuse_line(const GcodePrint& print, std::size_t offset, const std::string& what) {
   throw Error(fmt::format("{}:{}: {}", print.name, line_number(*print.text, offset), what));
@@ -25,6 +34,10 @@ FileHabits habits_of_file(const GcodePrint& print) {
   FileHabits habits;
   for (const IniEntry& entry : print.facts.config) {
     const bool sailfish = entry.value == "sailfish", makerware = entry.value == "makerware";
+    if (entry.key == "travel_slope") {
+      const auto first = std::string_view(entry.value).substr(0, entry.value.find(','));
+      habits.travel_slope = std::tan(number<double>(first).value_or(0) * std::numbers::pi / 180);
+    }
     if (entry.key == "ooze_prevention") habits.stands_aside = entry.value == "1";
     if (entry.key != "gcode_flavor") continue;
     habits.e_of_each_tool = sailfish || makerware;
@@ -49,16 +62,32 @@ std::size_t line_end(std::string_view text, std::size_t at) {
   return std::min(text.find('\n', at), text.size() - 1) + 1;
 }
 
-std::size_t behind_wipe(std::string_view text, std::size_t at) {
-  constexpr std::string_view end = ";WIPE_END";
-  const auto passes = [&](std::size_t p) {
-    const std::string_view line = text.substr(p, end.size());
-    return line.starts_with("\n") || line.starts_with("G") || line.starts_with(";WIPE");
-  };
+std::size_t behind_wipe(std::string_view text, std::size_t at, const DialectWords& words) {
+  // Moves, and what OrcaSlicer tells between road and wipe: that the object ends, another acceleration.
+  constexpr std::array<std::string_view, 6> passed = {"\n",   "G",   "; stop printing object", "EXCLUDE_OBJECT_END",
+                                                      "M204", "M625"};
   std::size_t behind = at;
-  for (std::size_t p = at; p < text.size() && passes(p) && behind == at; p = line_end(text, p))
-    if (text.substr(p, end.size()) == end) behind = line_end(text, p);
+  for (std::size_t p = at; p < text.size() && behind == at; p = line_end(text, p)) {
+    const std::string_view rest = text.substr(p);
+    if (rest.starts_with(words.wipe_ends)) behind = line_end(text, p);
+    const bool passes = std::ranges::any_of(passed, [&](std::string_view begin) { return rest.starts_with(begin); });
+    if (!passes && !rest.starts_with(words.wipe_begins)) break;
+  }
   return behind;
+}
+
+std::size_t behind_spiral(const GcodePrint& print, std::size_t move) {
+  constexpr std::size_t most_moves = 256;
+  if (move == 0 || !print.moves[move].known_start) return move;
+  const Vec3 begin = print.moves[move - 1].to_mm;
+  double z_mm = begin.z;
+  for (std::size_t i = move; i < std::min(print.moves.size(), move + most_moves); ++i) {
+    const GcodeMove& m = print.moves[i];
+    if (m.filament_mm != 0 || m.to_mm.z <= z_mm) return move;
+    z_mm = m.to_mm.z;
+    if (std::hypot(m.to_mm.x - begin.x, m.to_mm.y - begin.y) <= same_spot_mm) return i > move ? i + 1 : move;
+  }
+  return move;
 }
 
 namespace {
@@ -95,7 +124,7 @@ LayersText layers_text(const GcodePrint& print, const DialectWords& words) {
     if (!layers.prints_after) last = print.moves[i].offset;
   }
   if (last <= first) refuse_line(print, last, fmt::format("nothing is printed after the first {}", mark));
-  layers.end = behind_wipe(text, line_end(text, last));
+  layers.end = behind_wipe(text, line_end(text, last), words);
   if (words.tower_is_roads) layers.end = behind_last_way(text, layers.end, words);
   return layers;
 }

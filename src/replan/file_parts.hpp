@@ -29,6 +29,7 @@ struct FileHabits {
   bool e_of_each_tool = false;     // as in RecoveredPrint
   bool says_on_and_off = false;    // likewise
   bool stands_aside = false;       // at changes of tools: ooze_prevention
+  double travel_slope = 0;         // mm a mm, of ways on which nozzles are lifted; 0: it is not told
   bool says_roles_behind = false;  // roads say behind them what they are: verbose comments of Slic3r
 };
 FileHabits habits_of_file(const GcodePrint& print);
@@ -39,9 +40,13 @@ void require_rising(const RecoveredPrint& recovered, const GcodePrint& print);
 /// Behind the line that begins at or contains this byte.
 std::size_t line_end(std::string_view text, std::size_t at);
 
-/// Behind the wipe that follows there before anything else but moves; `at` where there is none: a wipe goes over the
-/// road before it, and so with it.
-std::size_t behind_wipe(std::string_view text, std::size_t at);
+/// Behind the wipe that follows there before anything else but moves and the end of an object; `at` where there is
+/// none: a wipe goes over the road before it, and so with it.
+std::size_t behind_wipe(std::string_view text, std::size_t at, const DialectWords& words);
+
+/// Behind the moves from there on that lift the nozzle while it goes round, and come back to where they began; the move
+/// itself where there are none. One who goes round on arcs moves in chords.
+std::size_t behind_spiral(const GcodePrint& print, std::size_t move);
 
 /// From the first mark of a layer to the last road and its wipe, bytes. Where a tower is roads like others: to the last
 /// road of the part, and what its nozzle still travels.

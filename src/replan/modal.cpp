@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
@@ -38,12 +39,18 @@ std::string letters_in(const GcodeLine& line, std::string_view which) {
 
 std::optional<ModalLine> of_comment(std::string_view comment) {
   const std::string_view text = trimmed(comment);
-  if (text.starts_with("TYPE:")) return ModalLine{std::string(type_key)};
-  if (text.starts_with("WIDTH:")) return ModalLine{std::string(width_key)};
-  if (text.starts_with("HEIGHT:")) return ModalLine{std::string(height_key)};
-  if (text.starts_with("MESH:")) return ModalLine{std::string(mesh_key)};
-  if (text.starts_with("printing object ")) return ModalLine{"0 object"};
-  if (text.starts_with("stop printing object ")) return ModalLine{"0 object", true};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> told = {{{"TYPE:", type_key},
+                                                                                  {"FEATURE:", type_key},
+                                                                                  {"WIDTH:", width_key},
+                                                                                  {"LINE_WIDTH:", width_key},
+                                                                                  {"HEIGHT:", height_key},
+                                                                                  {"LAYER_HEIGHT:", height_key},
+                                                                                  {"MESH:", mesh_key},
+                                                                                  {"OBJECT_ID:", object_id_key}}};
+  for (const auto& [begin, key] : told)
+    if (text.starts_with(begin)) return ModalLine{std::string(key)};
+  if (text.starts_with("printing object ") || text.starts_with("start printing object")) return ModalLine{"0 ; object"};
+  if (text.starts_with("stop printing object")) return ModalLine{"0 ; object", true};
   return std::nullopt;
 }
 
@@ -66,6 +73,9 @@ std::optional<ModalLine> of_m(const GcodeLine& line) {
     case 572:
     case 900:
       return ModalLine{fmt::format("M{}{}", line.number, letters_in(line, "TD"))};
+    case 624:
+    case 625:
+      return ModalLine{"0 M624", line.number == 625};
     case 486:
       if (!line.has_value('S')) return std::nullopt;
       return ModalLine{"0 M486", line['S'] < 0};
@@ -76,8 +86,10 @@ std::optional<ModalLine> of_m(const GcodeLine& line) {
 
 /// The line that ends what this one begins.
 std::string end_of_label(std::string_view line) {
-  constexpr std::string_view words = "; printing object", exclude = "EXCLUDE_OBJECT_START";
+  constexpr std::string_view words = "; printing object", exclude = "EXCLUDE_OBJECT_START", start = "; start ";
   if (line.starts_with(words)) return fmt::format("; stop{}", line.substr(1));
+  if (line.starts_with(start)) return fmt::format("; stop {}", line.substr(start.size()));
+  if (line.starts_with("M624")) return "M625";
   if (line.starts_with(exclude)) return fmt::format("EXCLUDE_OBJECT_END{}", line.substr(exclude.size()));
   return "M486 S-1";
 }
@@ -92,6 +104,14 @@ std::optional<ModalLine> modal_line(const GcodeLine& line) {
   if (line.word == "EXCLUDE_OBJECT_END") return ModalLine{"0 EXCLUDE_OBJECT", true};
   const bool alone = line.letter == 0 && line.word.empty() && line.present == 0;
   return alone && line.has_comment ? of_comment(line.comment) : std::nullopt;
+}
+
+ModalState of_moving(const ModalState& state) {
+  constexpr std::array<std::string_view, 4> keys = {"M201", "M204", "M205", "SET_VELOCITY_LIMIT"};
+  ModalState moving;
+  for (const auto& [key, text] : state)
+    if (std::ranges::any_of(keys, [&](std::string_view begin) { return key.starts_with(begin); })) moving[key] = text;
+  return moving;
 }
 
 void take(ModalState& state, const ModalLine& what, std::string_view text) {

@@ -26,6 +26,7 @@ inline constexpr std::string_view type_key = "1 type";
 inline constexpr std::string_view width_key = "2 width";
 inline constexpr std::string_view height_key = "3 height";
 inline constexpr std::string_view mesh_key = "4 mesh";
+inline constexpr std::string_view object_id_key = "5 object id";
 
 /// What the line sets; nothing where it is no such line.
 struct ModalLine {
@@ -33,6 +34,9 @@ struct ModalLine {
   bool ends = false;  // it ends what another began: a label
 };
 std::optional<ModalLine> modal_line(const GcodeLine& line);
+
+/// What of it says how fast the carriage may become faster and turn.
+ModalState of_moving(const ModalState& state);
 
 /// Takes the line into the state.
 void take(ModalState& state, const ModalLine& what, std::string_view text);

@@ -13,8 +13,10 @@
 #include "base/parallel.hpp"
 #include "model/ini.hpp"
 #include "model/reach.hpp"
+#include "model/text_scan.hpp"
 #include "plan/planner.hpp"
 #include "protection.hpp"
+#include "replan/change_places.hpp"
 #include "replan/columns.hpp"
 #include "replan/cura.hpp"
 #include "replan/file_parts.hpp"
@@ -37,6 +39,8 @@ constexpr RefusedOption refused_options[] = {
     {"use_firmware_retraction", "the firmware draws filament back; switch it off in the slicer"},
     {"use_volumetric_e", "E in mm3 is not re-planned yet; switch it off in the slicer"},
     {"infill_first", "infill before perimeters is not re-planned yet; switch it off in the slicer"},
+    {"wall_sequence",
+     "outer walls between inner ones are not re-planned; print them from the inside out or the outside in"},
 };
 
 bool is_support(Role role) {
@@ -189,6 +193,20 @@ std::vector<Layer> in_plain_order(const Scene& scene, const PrintedRampart& ramp
 
 namespace {
 
+/// Whether the option keeps nozzles from being lifted in some of the print's layers; 0 says nothing.
+bool lifts_in_some_layers(const IniEntry& entry, const GcodePrint& print) {
+  if (entry.key == "retract_lift_top") return entry.value.find("All ") == std::string::npos;
+  const bool above = entry.key == "retract_lift_above", below = entry.key == "retract_lift_below";
+  if (!above && !below) return false;
+  for (std::string_view rest = entry.value; !rest.empty();) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const double z_mm = number<double>(trimmed(rest.substr(0, comma))).value_or(0);
+    if (z_mm > 0 && (above ? z_mm > print.layers.front().z_mm : z_mm < print.layers.back().z_mm)) return true;
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return false;
+}
+
 /// The printer's, and over it what the configuration block of the file says.
 Config told_config(const GcodePrint& print, const Config* printer) {
   if (print.facts.config.empty() || print.facts.config_kind.empty())
@@ -196,15 +214,17 @@ Config told_config(const GcodePrint& print, const Config* printer) {
         fmt::format("{}: it has no configuration block at its end; it is not known how far filament is drawn "
                     "back. Export the G-code again with it",
                     print.name));
-  for (const IniEntry& entry : print.facts.config)
+  std::vector<IniEntry> told = print.facts.config_kind == "orcaslicer"       ? from_orca(print.facts.config)
+                               : print.facts.dialect == Dialect::superslicer ? from_superslicer(print.facts.config)
+                                                                             : print.facts.config;
+  for (const IniEntry& entry : told)
     for (const RefusedOption& option : refused_options)
       if (entry.key == option.key && is_set(entry.value))
         throw Error(fmt::format("{}: {} = {}: {}", print.name, entry.key, entry.value, option.reason));
-  for (const IniEntry& entry : print.facts.config)
-    if ((entry.key == "retract_lift_above" || entry.key == "retract_lift_below") && is_set(entry.value))
+  for (const IniEntry& entry : told)
+    if (lifts_in_some_layers(entry, print))
       throw Error(fmt::format("{}: {} = {}: lifting in some layers only is not re-planned yet; switch it off",
                               print.name, entry.key, entry.value));
-  std::vector<IniEntry> told = print.facts.config;
   std::erase_if(told, [](const IniEntry& entry) { return entry.key == "skirt_height"; });  // -1 of Slic3r: all layers
   return with_ini(printer != nullptr ? *printer : Config{}, told, print.name).config;
 }
@@ -223,8 +243,8 @@ Config planning_config(const GcodePrint& print, const AuditMachine& machine, con
   config.planner = Planner::clean;
   config.seam_position = SeamPosition::hidden;
   config.join_perimeters = true;
-  config.heater_off_after_last_use = false;  // the file's own temperatures hold
-  config.rampart = RampartShape::automatic;
+  config.heater_off_after_last_use = false;   // the file's own temperatures hold
+  config.rampart = RampartShape::conforming;  // walls that wipe and fill, be it after a tool was parked
   config.refill_mode = RefillMode::model;
   return config;
 }
@@ -301,9 +321,14 @@ ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recover
                       print.name, k + 1));
     Path last = own->last();
     Layer layer = with_loops_apart(std::move(*own).release(), recovered.layers[std::size_t(k)], print, machine, leads);
-    result.push_back(with_leads(std::move(layer),
-                                unpacked(scene.storeys.part.regions[scene.storeys.of_layer[std::size_t(k)]]),
-                                below.points.empty() ? nullptr : &below, leads));
+    const std::size_t storey = scene.storeys.of_layer[std::size_t(k)];
+    const auto regions_of = [&](std::size_t s) { return unpacked(scene.storeys.part.regions[s]); };
+    const Path* before = below.points.empty() ? nullptr : &below;
+    layer = with_leads(std::move(layer), regions_of(storey), before, leads);
+    if (config.idle_nozzle != IdleNozzle::same_height && scene.stops[std::size_t(k)].empty())
+      layer = with_change_places(std::move(layer), regions_of(storey),
+                                 storey > 0 ? regions_of(storey - 1) : std::vector<Polygons>{}, before);
+    result.push_back(std::move(layer));
     below = std::move(last);
     own.reset();
     progress.advance("planning", double(k + 1) / count);

@@ -44,8 +44,10 @@ class Recovery {
     book_ = FilamentBook(print_.tools, r_.e_of_each_tool);
     for (at_ = 0; at_ < r_.begin; at_ = next_) before_layers();
     begin_layers();
+    refuse_own_changes();
     for (; at_ < r_.end; at_ = next_) in_layers();
     part_headers(r_, changed_, print_, words_);
+    if (r_.lift_slope > 0 && habits.travel_slope > 0) r_.lift_slope = habits.travel_slope;
     finish();
     r_.states = std::move(states_).all();
     return std::move(r_);
@@ -114,15 +116,23 @@ class Recovery {
     breaks_ = true;
   }
 
+  /// Bambu's printers change filament in a way of their own, which drives about.
+  void refuse_own_changes() const {
+    if (const std::size_t at = text_.find("\nM620 ", r_.begin); at < r_.end)
+      refuse(at + 1,
+             "the printer changes its filament by M620, which is not re-planned: it goes only where a tool change "
+             "(T) moves nothing else");
+  }
+
   void in_layers() {
     read_line();
-    if (raw_.starts_with(";TYPE:Wipe tower")) return tower();
+    if (raw_.starts_with(words_.tower)) return tower();
     count_e();
     if (line_.letter == 0 && line_.word.empty() && line_.present == 0) return comment();
     if (const auto what = modal_line(line_)) return take_state(*what);
     if (line_.letter == 'G') return command_g();
     if (const auto tool = tool_taken(line_)) return change_to(*tool);
-    if (line_.letter == 'M' && line_.number == 73) {
+    if (line_.letter == 'M' && line_.number == 73 && line_.has('P')) {
       if (r_.progress_line.empty() && raw_.starts_with("M73 P")) r_.progress_line = raw_;
       return;
     }
@@ -133,11 +143,12 @@ class Recovery {
   }
 
   void comment() {
-    if (!line_.has_comment || raw_ == ";WIPE_START" || raw_ == ";WIPE_END") return;
+    if (!line_.has_comment || raw_ == words_.wipe_begins || raw_ == words_.wipe_ends) return;
     if (!words_.elapsed.empty() && raw_.starts_with(words_.elapsed)) {
       ++r_.elapsed_lines;
       return;
     }
+    if (std::ranges::find(words_.of_ways, raw_) != words_.of_ways.end()) return;
     if (begins_with_one_of(raw_, words_.layer_begins)) {
       const bool may_follow = !words_.layer_begins[1].empty() && !raw_.starts_with(words_.layer_begins[1]);
       if (has_layer_mark_ && !may_follow) refuse(at_, "a layer without roads");
@@ -167,6 +178,7 @@ class Recovery {
       run().leaving.insert(run().leaving.end(), way_.begin(), to);
     back_after_ -= std::min(back_after_, std::size_t(to - way_.begin()));
     if (forward_after_) *forward_after_ -= std::min(*forward_after_, std::size_t(to - way_.begin()));
+    if (!way_z_.empty()) way_z_.erase(way_z_.begin(), way_z_.begin() + (to - way_.begin()));
     way_.erase(way_.begin(), to);
   }
   void leave_run() { leave_run(way_.size()); }
@@ -187,7 +199,7 @@ class Recovery {
     const bool heats = line_.letter == 'M' && (line_.number == 104 || line_.number == 109);
     if (words_.times_heaters && (asks || (heats && is_timed(line_.value_or('T', tool_))))) return;
     if (words_.times_heaters && has_tool_ && line_.letter == 'M' && line_.number == 116) return keep(true);
-    if (const auto fault = fault_of_command(line_, raw_, print_.tools)) refuse(at_, *fault);
+    if (const auto fault = fault_of_command(line_, raw_, has_tool_ || print_.tools <= 1)) refuse(at_, *fault);
     keep(true);
   }
 
@@ -201,7 +213,7 @@ class Recovery {
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
     if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
       refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
-    if (stands_aside_ && !way_.empty()) stand_ = way_.back(), way_.pop_back();
+    if (stands_aside_ && !way_.empty()) stand_ = way_.back(), way_.pop_back(), way_z_.pop_back();
     leave_run();
     has_tool_ = true;
     breaks_ = true;
@@ -214,6 +226,8 @@ class Recovery {
   }
 
   void command_g() {
+    if (line_.number == 17) return;  // the plane of arcs is no other one anywhere
+    if (is_spiral()) return lift_in_spiral();
     if (const auto fault = fault_of_g(line_, raw_)) refuse(at_, *fault);
     if (line_.number == 92) return;
     if (line_.number == 2 || line_.number == 3) return lay_arc();
@@ -225,6 +239,20 @@ class Recovery {
     go(move, from);
   }
 
+  /// Whether the line is of a lift that goes round and comes back to where it began.
+  bool is_spiral() {
+    while (move_ < print_.moves.size() && print_.moves[move_].offset < at_) ++move_;
+    const bool moves = move_ < print_.moves.size() && print_.moves[move_].offset == at_;
+    if (moves && behind_spiral_ <= move_) behind_spiral_ = behind_spiral(print_, move_);
+    return moves && move_ < behind_spiral_;
+  }
+
+  void lift_in_spiral() {
+    while (move_ < behind_spiral_ && print_.moves[move_].offset == at_) ++move_;
+    spiral_.emplace_back(raw_);
+    breaks_ = true;
+  }
+
   void go(const GcodeMove& move, Vec3 from) {
     const bool across = from.x != move.to_mm.x || from.y != move.to_mm.y || (!move.known_start && move.names_xy);
     if (!breaks_ && move.names_xy && !across && move.filament_mm > 0) {  // a road too short to be told
@@ -232,6 +260,7 @@ class Recovery {
       return;
     }
     breaks_ = true;
+    top_z_mm_ = std::max(top_z_mm_, move.to_mm.z);
     if (across && has_tool_) travelled_after_tool_ = true;
     if (move.filament_mm < 0 && across) return wipe(move);
     if (move.filament_mm > 0 && across) refuse(at_, "filament is pushed on the way");
@@ -249,7 +278,15 @@ class Recovery {
     book_.move(move);
     if (move.filament_mm > 0 && !forward_after_ && book_.back_of(move.feeds) <= filament_rounding_e5)
       forward_after_ = way_.size();
-    if (across) way_.push_back({to_um(move.to_mm.x), to_um(move.to_mm.y)});
+    if (!across) return;
+    way_.push_back({to_um(move.to_mm.x), to_um(move.to_mm.y)});
+    way_z_.push_back(to_um(move.to_mm.z));
+    if (way_.size() == 1) way_state_ = states_.index();
+    if (const double rise = move.to_mm.z - from.z; rise > 0 && move.known_start) {
+      rises_on_way_ = true;
+      const double slope = rise / std::hypot(move.to_mm.x - from.x, move.to_mm.y - from.y);
+      r_.lift_slope = r_.lift_slope > 0 ? std::min(r_.lift_slope, slope) : slope;
+    }
   }
 
   /// Drawing back on the way, over what was just printed.
@@ -263,7 +300,7 @@ class Recovery {
     } else if (!way_.empty()) {
       refuse(at_, "filament is drawn back on the way, but not after a road");
     }
-    way_.clear();
+    way_.clear(), way_z_.clear();
     run().wipe.push_back({{to_um(move.to_mm.x), to_um(move.to_mm.y)}, -to_e5(move.filament_mm), feed_});
     book_.move(move);
     drawn_back_ = true;
@@ -295,7 +332,7 @@ class Recovery {
       refuse(at_, "a wipe tower that begins while filament is drawn back");
     FixedLines fixed{.lines = {}, .lays = true, .state = states_.index(), .drawn_back_e5 = book_.back()};
     close_gap(from);
-    const std::size_t end = behind_wipe(text_, line_end(text_, print_.moves[last].offset));
+    const std::size_t end = behind_wipe(text_, line_end(text_, print_.moves[last].offset), words_);
     for (;; at_ = next_) {
       read_line();
       count_e();
@@ -381,7 +418,8 @@ class Recovery {
       std::optional<double> told;
       for (std::size_t i = header_begin; i < tool_at; ++i) {
         layer.header.emplace_back(gap_[i].text);
-        if (gap_[i].text.starts_with(";HEIGHT:") && !told) told = number<double>(trimmed(gap_[i].text.substr(8)));
+        if (gap_[i].text.starts_with(words_.height) && !told)
+          told = number<double>(trimmed(gap_[i].text.substr(words_.height.size())));
       }
       layer.height_mm = told.value_or(print_.layers[print_.moves[move_ - 1].layer].height_mm);
     } else if (r_.layers.empty()) {
@@ -415,19 +453,23 @@ class Recovery {
                                      .roads = {},
                                      .notes = std::move(notes),
                                      .way = std::move(way_),
+                                     .way_z_um = rises_on_way_ ? std::move(way_z_) : std::vector<std::int64_t>{},
+                                     .spiral = std::move(spiral_),
+                                     .way_state = way_state_,
                                      .leaving = {},
+                                     .lifted = top_z_mm_ > from.z + same_height_mm,
                                      .drawn_back = drawn_back_ || has_tool_,
                                      .back_after = has_tool_ ? 0 : back_after_,
                                      .forward_after = forward_after_.value_or(~std::size_t{0})});
     if (!run().way.empty()) run().way.pop_back();  // its start
-    way_.clear();
+    way_.clear(), way_z_.clear(), spiral_.clear();
     gap_.clear();
     breaks_ = has_layer_mark_ = has_tool_ = left_header_ = drawn_back_ = travelled_after_tool_ = false;
     moved_among_notes_ = 0;
     back_after_ = 0;
     rises_after_.reset();
     forward_after_.reset();
-    rise_mm_ = 0;
+    rise_mm_ = top_z_mm_ = 0;
   }
 
   /// The change of tools as a stop on the way: where it stands, and its lines.
@@ -497,6 +539,11 @@ class Recovery {
   // Since the last road:
   std::vector<Note> gap_;  // lines to be kept
   std::vector<FilePoint> way_;
+  std::vector<std::int64_t> way_z_;
+  std::vector<std::string> spiral_;
+  bool rises_on_way_ = false;
+  std::uint32_t way_state_ = 0;
+  std::size_t behind_spiral_ = 0;                  // move
   std::size_t mark_in_gap_ = 0, tool_in_gap_ = 0;  // where the layer begins and the tool changes
   bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false, drawn_back_ = false;
   bool travelled_after_tool_ = false;
@@ -507,13 +554,14 @@ class Recovery {
   std::size_t back_after_ = 0;
   std::optional<std::size_t> rises_after_, forward_after_;  // so many places of the way
   double rise_mm_ = 0;                                      // above the layer
+  double top_z_mm_ = 0;                                     // of the nozzle
   std::vector<ChangedHeader> changed_;
 };
 
 }  // namespace
 
 RecoveredPrint recovered_print(const GcodePrint& print) {
-  const DialectWords* words = words_of(print.facts.dialect);
+  const DialectWords* words = words_of(print);
   assert(words != nullptr);
   return Recovery(print, *words).result();
 }

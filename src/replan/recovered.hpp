@@ -70,11 +70,15 @@ struct RecoveredRun {
   std::optional<FixedLines> fixed = {};         // none
   std::vector<std::string> notes;               // comments that stand before it
   std::vector<FilePoint> way;                   // passed on the way here in the file
+  std::vector<std::int64_t> way_z_um = {};      // there, and where it ends; empty: the nozzle does not rise on the way
+  std::vector<std::string> spiral = {};         // lines that lift the nozzle before it, and before a change of tools
+  std::uint32_t way_state = 0;                  // index into RecoveredPrint::states, on the way
   std::vector<FilePoint> leaving;               // passed after it before the tool or the layer changes
   std::vector<FilePoint> wipe_from = {};        // passed before its wipe
   std::vector<WipeMove> wipe = {};              // after it
   std::int64_t back_before_wipe_e5 = 0;         // drawn back on the spot before
-  bool drawn_back = false;                      // on the way here,
+  bool lifted = false;                          // the nozzle, on the way here
+  bool drawn_back = false;                      // likewise, filament,
   std::size_t back_after = 0;                   // where so many places of the way were passed,
   std::size_t forward_after = ~std::size_t{0};  // and pushed forward again after so many; else where it ends
 };
@@ -111,6 +115,7 @@ struct RecoveredPrint {
   std::string progress_line;      // the first M73 P among the layers, which are told anew; empty: there are none
   std::size_t elapsed_lines = 0;  // likewise, of the time so far
   double change_lift_mm = 0;      // of a nozzle before another one takes over
+  double lift_slope = 0;          // mm a mm of way on which nozzles are lifted; 0: they are lifted on the spot
 };
 
 /// Throws Error("file:line: ...") for what cannot be put in another order for sure; it says what to do.

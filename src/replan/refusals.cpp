@@ -34,10 +34,10 @@ std::optional<std::string> fault_of_g(const GcodeLine& line, std::string_view ra
   }
 }
 
-std::optional<std::string> fault_of_command(const GcodeLine& line, std::string_view raw, int tools) {
+std::optional<std::string> fault_of_command(const GcodeLine& line, std::string_view raw, bool knows_tool) {
   if (is_temperature(line)) {
     const bool bed = line.number == 140 || line.number == 190;
-    if (bed || line.has_value('T') || tools <= 1) return std::nullopt;
+    if (bed || line.has_value('T') || knows_tool) return std::nullopt;
     return "a temperature without a tool (T) among the layers: it would reach another one";
   }
   const bool stops =
@@ -49,7 +49,8 @@ std::optional<std::string> fault_of_command(const GcodeLine& line, std::string_v
 }
 
 std::optional<std::string> fault_of_road(const GcodeMove& move, Vec3 from, int tool, const DialectWords& words) {
-  if (std::abs(from.z - move.to_mm.z) > same_height_mm) return "a road that rises (vase mode) is not re-planned";
+  if (std::abs(from.z - move.to_mm.z) > same_height_mm)
+    return "a road that rises (vase mode, scarf seam) is not re-planned; switch it off in the slicer";
   if (move.tool != move.feeds || move.tool != tool) return "a road of another tool than the one in use";
   switch (move.role) {
     case Role::wipe_tower:

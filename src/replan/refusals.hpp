@@ -22,8 +22,8 @@ bool is_temperature(const GcodeLine& line);
 /// Of a line that begins with a G. raw: its text.
 std::optional<std::string> fault_of_g(const GcodeLine& line, std::string_view raw);
 
-/// Of another command; tools: of the print.
-std::optional<std::string> fault_of_command(const GcodeLine& line, std::string_view raw, int tools);
+/// Of another command; knows_tool: it is the same one wherever the line goes.
+std::optional<std::string> fault_of_command(const GcodeLine& line, std::string_view raw, bool knows_tool);
 
 /// Of a road that begins at `from`; tool: the one in use.
 std::optional<std::string> fault_of_road(const GcodeMove& move, Vec3 from, int tool, const DialectWords& words);

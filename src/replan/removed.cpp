@@ -24,8 +24,8 @@ void erase_run(RecoveredPrint& recovered, const GcodePrint& print, std::size_t l
 }
 
 bool is_of_tower(std::string_view comment) {
-  constexpr std::array<std::string_view, 8> begins = {";TYPE:", ";WIDTH:",   ";HEIGHT:",     ";---",
-                                                      "; CP ",  "; layer #", "; toolchange", "; material"};
+  constexpr std::array<std::string_view, 6> begins = {";---",         "; CP ",      "; layer #",
+                                                      "; toolchange", "; material", "; WIPE_TOWER"};
   return std::ranges::any_of(begins, [&](std::string_view begin) { return comment.starts_with(begin); });
 }
 
@@ -43,6 +43,8 @@ class TowerChange {
     GcodeLine line;
     if (parse_line(text, line)) refuse(text);
     const bool empty = line.letter == 0 && line.word.empty() && line.present == 0;
+    const bool tells_progress = line.letter == 'M' && line.number == 73;
+    if (modal_line(line) || tells_progress) return;  // roads know what holds for them
     if (line.letter == 'T') return change(text, line.number);
     if (empty) {
       if (!trimmed(text).empty() && !is_of_tower(text)) take(text);

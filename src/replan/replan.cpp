@@ -24,11 +24,13 @@ std::string_view producer_of(const GcodePrint& print) {
 }
 
 void require_known_dialect(const GcodePrint& print) {
-  if (words_of(print.facts.dialect) != nullptr) return;
+  if (words_of(print) != nullptr) return;
   if (print.facts.dialect == Dialect::cleancolor)
     throw Error(fmt::format("{}: cleancolor made it, so it is planned already", print.name));
-  throw Error(fmt::format("{}: made by {}; only files of PrusaSlicer, Slic3r and Cura are re-planned so far",
-                          print.name, producer_of(print)));
+  throw Error(
+      fmt::format("{}: made by {}; only files of PrusaSlicer, SuperSlicer, Slic3r, "
+                  "OrcaSlicer, BambuStudio and Cura are re-planned so far",
+                  print.name, producer_of(print)));
 }
 
 /// A file that was cut off has no code that switches the heaters off.
@@ -36,7 +38,7 @@ void require_whole(const GcodePrint& print) {
   const std::string_view text = *print.text;
   const std::size_t last = text.rfind('\n') + 1;
   const bool half_a_line = last < text.size() && text[last] != ';';
-  const std::string_view elapsed = words_of(print.facts.dialect)->elapsed;
+  const std::string_view elapsed = words_of(print)->elapsed;
   const std::size_t told = elapsed.empty() ? text.npos : text.rfind(elapsed), layer = text.rfind("\n;LAYER:");
   const bool half_a_layer = told != text.npos && layer != text.npos && told < layer;
   if (half_a_line || half_a_layer)

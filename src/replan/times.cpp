@@ -41,12 +41,13 @@ void correct_cura_head(std::string& text, double share) {
 
 /// The slicer's own estimates, longer by as much as the print is.
 void correct_config_estimates(std::string& text, double share) {
-  constexpr std::array<std::string_view, 2> tags = {"\n; estimated printing time (normal mode) = ",
-                                                    "\n; estimated printing time (silent mode) = "};
+  constexpr std::array<std::string_view, 4> tags = {
+      "\n; estimated printing time (normal mode) = ", "\n; estimated printing time (silent mode) = ",
+      "\n; model printing time: ", "; total estimated time: "};
   for (const std::string_view tag : tags) {
     const std::size_t at = text.rfind(tag);
     if (at == text.npos) continue;
-    const std::size_t begin = at + tag.size(), end = std::min(text.find('\n', begin), text.size());
+    const std::size_t begin = at + tag.size(), end = std::min(text.find_first_of("\n;", begin), text.size());
     const double told_s = seconds_of(std::string_view(text).substr(begin, end - begin));
     if (told_s > 0) text.replace(begin, end - begin, duration_text(told_s * share));
   }
@@ -55,7 +56,7 @@ void correct_config_estimates(std::string& text, double share) {
 }  // namespace
 
 std::string with_progress(const GcodePrint& after, const Timeline& time, double share) {
-  const std::string_view elapsed = words_of(after.facts.dialect)->elapsed;
+  const std::string_view elapsed = words_of(after)->elapsed;
   const std::string_view text = *after.text;
   std::string result;
   result.reserve(text.size());

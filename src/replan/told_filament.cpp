@@ -110,10 +110,15 @@ void retell_lines(std::string& text, const std::vector<double>& share) {
   }
 }
 
+/// Cura and BambuStudio.
 void retell_head(std::string& text, const std::vector<double>& share) {
-  constexpr std::string_view tag = ";Filament used:";
-  const std::size_t at = std::string_view(text).substr(0, head_bytes).find(tag);
-  if (at != text.npos) retell_list(text, at + tag.size(), share);
+  constexpr std::array<std::string_view, 4> tags = {
+      ";Filament used:", "; total filament length [mm] :", "; total filament volume [cm^3] :",
+      "; total filament weight [g] :"};
+  for (const std::string_view tag : tags) {
+    const std::size_t at = std::string_view(text).substr(0, head_bytes).find(tag);
+    if (at != text.npos) retell_list(text, at + tag.size(), share);
+  }
 }
 
 }  // namespace

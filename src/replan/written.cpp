@@ -93,7 +93,7 @@ class Writing {
         machine_(machine),
         config_(config),
         options_(options),
-        words_(*words_of(print.facts.dialect)),
+        words_(*words_of(print)),
         out_(recovered, words_, config, start_of_text()),
         asked_mm_(config.extruders.size(), 0.),
         written_e5_(config.extruders.size(), 0) {
@@ -129,25 +129,36 @@ class Writing {
     const std::size_t layers = recovered_.layers.size(), tools = config_.extruders.size();
     std::vector<std::optional<std::uint32_t>> last(tools);
     plain_state_.assign(layers, std::vector<std::uint32_t>(tools, recovered_.begin_state));
+    way_state_ = plain_state_;
+    std::vector<std::uint32_t> last_way(tools, recovered_.begin_state);
     for (const bool back : {true, false})  // what follows serves where nothing came before
       for (std::size_t i = 0; i < layers; ++i) {
         const std::size_t k = back ? layers - 1 - i : i;
         std::vector<std::optional<std::uint32_t>> own(tools);
         for (const RecoveredRun& run : recovered_.layers[k].runs) {
           const auto t = std::size_t(run.tool);
-          if (!own[t] && !run.fixed) own[t] = run.roads.front().state;
+          if (!own[t] && !run.fixed) own[t] = run.roads.front().state, last_way[t] = run.way_state;
         }
         for (std::size_t t = 0; t < tools; ++t) {
           if (own[t]) last[t] = own[t];
-          if (last[t]) plain_state_[k][t] = *last[t];
+          if (last[t]) plain_state_[k][t] = *last[t], way_state_[k][t] = last_way[t];
         }
       }
   }
 
   void draw_back() { draw_back(extruder().retract_length_mm, extruder().retract_lift_mm); }
-  void draw_back_for_change() {
-    draw_back(extruder().retract_length_toolchange_mm, std::max(extruder().retract_lift_mm, recovered_.change_lift_mm));
+  void draw_back_for_change(bool lifts = true) {
+    const double lift = std::max(extruder().retract_lift_mm, recovered_.change_lift_mm);
+    draw_back(extruder().retract_length_toolchange_mm, lifts ? lift : 0);
   }
+
+  /// As the file does on the way to that run, and lifts.
+  void draw_back_before(const RecoveredRun& run) {
+    const bool itself = rises_by_itself(run);
+    draw_back(extruder().retract_length_mm, itself || !run.lifted ? 0 : extruder().retract_lift_mm);
+    if (!out_.is_lifted()) out_.rise(run.spiral);
+  }
+  static bool rises_by_itself(const RecoveredRun& run) { return !run.spiral.empty() || !run.way_z_um.empty(); }
   void draw_back(double length_mm, double lift_mm) {
     const std::int64_t to_e5 = std::llround(length_mm * 1e5);
     wipe(to_e5);
@@ -155,8 +166,9 @@ class Writing {
     if (lift_mm > 0) out_.lift(lift_mm);
   }
 
-  void change_tool(int tool) {
-    draw_back_for_change();
+  void change_tool(int tool, std::span<const std::string> spiral = {}) {
+    draw_back_for_change(spiral.empty());
+    out_.rise(spiral);
     out_.change_tool(tool);
     if (!words_.pushes_at_change) return;
     out_.push_forward(std::llround(extruder().retract_length_mm * 1e5));
@@ -173,9 +185,9 @@ class Writing {
     if (wipe.moves.empty() || out_.drawn_back_e5() > 0 || sum_e5 > most_e5) return;
     for (const FilePoint p : wipe.from) out_.travel(p);
     out_.draw_back(wipe.before_e5);
-    out_.line(";WIPE_START");
+    out_.line(words_.wipe_begins);
     for (const WipeMove& move : wipe.moves) out_.wipe(move.to, move.filament_e5, move.feed_mm_min);
-    out_.line(";WIPE_END");
+    out_.line(words_.wipe_ends);
   }
 
   void layer(std::size_t k, const Layer& planned) {
@@ -185,8 +197,7 @@ class Writing {
     std::vector<char> is_written(source.runs.size(), 0);
     out_.header(source.header);
     if (!recovered_.progress_line.empty()) out_.line(recovered_.progress_line);  // its numbers come later
-    if (options_.as_in_file ? source.runs.front().drawn_back : extruder().retract_layer_change) draw_back();
-    out_.set_z(source.z_mm);
+    begin_layer(source);
     for (std::size_t i = 0; i < planned.paths.size(); ++i) {
       const Path& path = planned.paths[i];
       if (path.source < 0) {
@@ -204,6 +215,20 @@ class Writing {
     }
     if (recovered_.elapsed_lines > 0) out_.line(fmt::format("{}0", words_.elapsed));
     if (std::ranges::find(is_written, 0) != is_written.end()) fail("a path is not planned");
+  }
+
+  void begin_layer(const RecoveredLayer& source) {
+    const RecoveredRun& first = source.runs.front();
+    if (!options_.as_in_file) {
+      if (extruder().retract_layer_change) draw_back();
+      return out_.set_z(source.z_mm);
+    }
+    if (!rises_by_itself(first)) {
+      if (first.drawn_back) draw_back_before(first);
+      return out_.set_z(source.z_mm);
+    }
+    if (first.drawn_back) draw_back(extruder().retract_length_mm, 0);
+    out_.take_z(source.z_mm);
   }
 
   [[noreturn]] void fail(std::string_view what) const {
@@ -225,11 +250,25 @@ class Writing {
     for (const Vec2 p : path.travel) way.push_back(in_file(p, path.extruder));
     way.push_back(start);
     for (const FilePoint p : way) way_um += length_um(from, p), from = p;
-    if (changes) change_tool(path.extruder);
+    if (changes) {
+      drive_before_change(path);
+      way.erase(way.begin(), way.begin() + std::ptrdiff_t(path.travel_before_change));
+      change_tool(path.extruder);
+    }
+    const auto next = run != nullptr ? run->way_state : way_state_[layer_][std::size_t(path.extruder)];
+    if (words_.drives_otherwise && way_um > 0) out_.set(of_moving(recovered_.states[next]));
     const Extruder& e = config_.extruders[std::size_t(path.extruder)];
     const bool draws_back = way_um > e.retract_before_travel_mm * 1e3 - 1;
     if (draws_back && !(run != nullptr && goes_so_in_file(*run, way_um))) draw_back();
+    if (out_.is_known()) out_.rises_over(way_um);
     for (const FilePoint p : way) out_.travel(p);
+  }
+
+  /// The former tool, drawn back, to where the new one is taken.
+  void drive_before_change(const Path& path) {
+    if (path.travel_before_change == 0) return;
+    draw_back_for_change();
+    for (std::size_t i = 0; i < path.travel_before_change; ++i) out_.travel(in_file(path.travel[i], out_.tool()));
   }
 
   /// Whether the file goes between this run and the one printed last, this way or the other, no shorter and without
@@ -249,17 +288,21 @@ class Writing {
 
   void go_as_in_file(const RecoveredRun& run, FilePoint start) {
     if (run.tool != out_.tool()) {
-      change_tool(run.tool);
-      draw_back();
+      change_tool(run.tool, run.spiral);
+      draw_back_before(run);
     }
+    if (words_.drives_otherwise && !run.way.empty()) out_.set(of_moving(recovered_.states[run.way_state]));
+    const auto travel = [&](std::size_t i, FilePoint to) {
+      run.way_z_um.empty() ? out_.travel(to) : out_.travel(to, run.way_z_um[std::min(i, run.way_z_um.size() - 1)]);
+    };
     for (std::size_t i = 0; i < run.way.size(); ++i) {
-      if (run.drawn_back && i == run.back_after) draw_back();
+      if (run.drawn_back && i == run.back_after) draw_back_before(run);
       if (i == run.forward_after) push_forward_on_the_way();
-      out_.travel(run.way[i]);
+      travel(i, run.way[i]);
     }
-    if (run.drawn_back && run.back_after >= run.way.size()) draw_back();
+    if (run.drawn_back && run.back_after >= run.way.size()) draw_back_before(run);
     if (run.forward_after == run.way.size()) push_forward_on_the_way();
-    out_.travel(start);
+    travel(run.way.size(), start);
   }
 
   void push_forward() {
@@ -366,6 +409,7 @@ class Writing {
   static ModalState of_no_object(ModalState state) {
     for (auto& [key, text] : state)
       if (key.starts_with("0 ")) text.clear();
+    state.erase(std::string(object_id_key));
     return state;
   }
 
@@ -388,8 +432,8 @@ class Writing {
         state[std::string(type_key)] = words_.own_type;
         if (!words_.own_object.empty()) state[std::string(mesh_key)] = words_.own_object;
         if (words_.tells_sizes) {
-          state[std::string(width_key)] = fmt::format(";WIDTH:{:.6g}", road.width_mm);
-          state[std::string(height_key)] = fmt::format(";HEIGHT:{:.6g}", road.height_mm);
+          state[std::string(width_key)] = fmt::format("{}{:.6g}", words_.width, road.width_mm);
+          state[std::string(height_key)] = fmt::format("{}{:.6g}", words_.height, road.height_mm);
         }
         out_.set(state);
         if (i == 0) out_.line(refills ? ";REFILL_START" : ";RAMPART_WALL");
@@ -417,6 +461,7 @@ class Writing {
   const RecoveredRun* last_ = nullptr;                   // printed last, in this layer
   Wipe wipe_;                                            // that the path printed last may be left with
   std::vector<std::vector<std::uint32_t>> plain_state_;  // [layer][tool]
+  std::vector<std::vector<std::uint32_t>> way_state_;    // likewise, of ways to what is ours
   std::vector<double> asked_mm_;                         // of rampart and refills, by tool
   std::vector<std::int64_t> written_e5_;
 };

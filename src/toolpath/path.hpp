@@ -90,9 +90,10 @@ struct Path {
   std::vector<Vec2> points;
   std::vector<Stretch> stretches;
   std::vector<Vec2> travel;  // points passed on the way here from the end of the path before, both ends left out
-  std::vector<Path> inner;   // within the planner: loops printed before this one without a stop (plan/joined_loops.hpp)
-  int source = -1;           // by which its maker knows it again, whatever becomes of it; -1: nobody asks
-  int inner_source = -1;     // of the inner loop that it was joined with
+  std::size_t travel_before_change = 0;  // so many of them are passed with the extruder of the path before
+  std::vector<Path> inner;  // within the planner: loops printed before this one without a stop (plan/joined_loops.hpp)
+  int source = -1;          // by which its maker knows it again, whatever becomes of it; -1: nobody asks
+  int inner_source = -1;    // of the inner loop that it was joined with
   std::uint32_t outer_from = 0;  // and the point where the outer one then begins
 
   const Road& road() const { return stretches.front().road; }

@@ -77,7 +77,9 @@ TEST_P(ReplanDialects, DamagedAreRefusedOrPlannedWhole) {
 INSTANTIATE_TEST_SUITE_P(All, ReplanDialects,
                          testing::Values("prusaslicer", "prusaslicer-shield", "prusaslicer-ooze", "prusaslicer-tower",
                                          "prusaslicer-tower-wipe", "prusaslicer-wipe", "prusaslicer-sailfish",
-                                         "prusaslicer-makerware", "slic3r-plain", "slic3r-ooze", "slic3r-verbose"),
+                                         "prusaslicer-makerware", "slic3r-plain", "slic3r-ooze", "slic3r-verbose",
+                                         "orcaslicer", "orcaslicer-klipper", "orcaslicer-tower", "bambustudio",
+                                         "superslicer"),
                          [](const testing::TestParamInfo<const char*>& of) {
                            std::string name = of.param;
                            std::ranges::replace(name, '-', '_');
