@@ -18,7 +18,7 @@ constexpr double width_step_mm = 0.02;
 
 // What no real print reaches: a bound on the memory of the picture.
 constexpr double most_dashed_px = 2e6;
-constexpr std::size_t most_places = 20'000;
+constexpr std::size_t most_places_drawn = 20'000;
 
 enum class Plastic { auxiliary, inner, outer };
 
@@ -312,7 +312,7 @@ std::vector<const Place*> places_of(const ScenarioResult& scenario, std::uint32_
   for (const Place& p : scenario.places)
     if (p.layer == layer) places.push_back(&p);
   std::ranges::stable_sort(places, [](const Place* a, const Place* b) { return a->mm3 > b->mm3; });
-  places.resize(std::min(places.size(), most_places));
+  places.resize(std::min(places.size(), most_places_drawn));
   return places;
 }
 

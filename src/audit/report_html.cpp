@@ -200,7 +200,7 @@ std::string assumptions(const AuditedFile& file) {
   return html + "</ul>\n" + html_table(numbers);
 }
 
-std::string unknown_commands(const GcodePrint& print) {
+std::string unknown_commands_html(const GcodePrint& print) {
   constexpr std::size_t most = 200;
   if (print.unknown.empty()) return "";
   HtmlTable table{.head = {"command", "times", "first in line"}, .rows = {}};
@@ -226,7 +226,7 @@ std::string pictures_part(const AuditedFile& file, const ReportOptions& options,
   const PictureWidths widths = alone ? of_one : of_several;
   return side_pictures(file, options, widths.side_px) + height_plot(file, options, widths.plot_px) +
          layer_pictures(file, options) + places(file, options) + figures(file, alone) + filament(*file.result) +
-         assumptions(file) + unknown_commands(*file.print);
+         assumptions(file) + unknown_commands_html(*file.print);
 }
 
 std::string comparison_table(std::span<const AuditedFile> files) {

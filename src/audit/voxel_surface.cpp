@@ -12,11 +12,11 @@ struct SurfaceCell {
 
 /// The way from air to a neighbour of plastic, and the corners of the face between them, as steps from the corner of
 /// the air's voxel with the least coordinates; counterclockwise seen from the air.
-struct Side {
+struct VoxelSide {
   SurfaceCell to;
   std::array<SurfaceCell, 4> corners;
 };
-constexpr std::array<Side, 6> sides_of_a_voxel = {{
+constexpr std::array<VoxelSide, 6> sides_of_a_voxel = {{
     {{-1, 0, 0}, {{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}}},
     {{1, 0, 0}, {{{1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}}}},
     {{0, -1, 0}, {{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}}},
@@ -67,7 +67,7 @@ VoxelSurface voxel_surface(const Voxels& voxels, int smoothing) {
       const std::int64_t i = std::int64_t(w) * 64 + std::countr_zero(bits);
       const std::int64_t in_plane = i % voxels.plane_bits;
       const SurfaceCell c{int(in_plane % voxels.row_bits), int(in_plane / voxels.row_bits), int(i / voxels.plane_bits)};
-      for (const Side& side : sides_of_a_voxel) {
+      for (const VoxelSide& side : sides_of_a_voxel) {
         const SurfaceCell n{c.x + side.to.x, c.y + side.to.y, c.z + side.to.z};
         if (!voxels.has(n.x, n.y, n.z)) continue;
         const std::int64_t neighbour = voxels.index(n.x, n.y, n.z);

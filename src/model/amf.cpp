@@ -17,13 +17,13 @@ namespace cleancolor {
 namespace {
 
 /// Metadata of this type, in any case: "name", "Name".
-std::string_view metadata(pugi::xml_node node, std::string_view type) {
+std::string_view amf_metadata(pugi::xml_node node, std::string_view type) {
   for (const pugi::xml_node child : node.children("metadata"))
     if (is_keyword(child.attribute("type").value(), type)) return trimmed(child.child_value());
   return {};
 }
 
-double unit_mm(std::string_view unit, const std::string& name) {
+double amf_unit_mm(std::string_view unit, const std::string& name) {
   constexpr std::pair<std::string_view, double> units[] = {{"", 1},           {"millimeter", 1}, {"inch", 25.4},
                                                            {"feet", 304.8},   {"foot", 304.8},   {"meter", 1000},
                                                            {"micron", 0.001}, {"centimeter", 10}};
@@ -44,8 +44,8 @@ std::optional<std::uint32_t> colour_of(pugi::xml_node node) {
   return rgb;
 }
 
-std::optional<int> extruder_of(pugi::xml_node node, const std::string& name) {
-  const std::string_view text = metadata(node, "slic3r.extruder");
+std::optional<int> amf_extruder_of(pugi::xml_node node, const std::string& name) {
+  const std::string_view text = amf_metadata(node, "slic3r.extruder");
   if (text.empty()) return std::nullopt;
   const auto extruder = number<int>(text);
   if (!extruder || *extruder < 0 || *extruder > 1000)
@@ -53,7 +53,7 @@ std::optional<int> extruder_of(pugi::xml_node node, const std::string& name) {
   return *extruder == 0 ? std::nullopt : std::optional(*extruder - 1);
 }
 
-std::vector<Vec3> vertices_of(pugi::xml_node mesh, double mm, const std::string& where) {
+std::vector<Vec3> amf_vertices_of(pugi::xml_node mesh, double mm, const std::string& where) {
   std::vector<Vec3> vertices;
   for (const pugi::xml_node vertex : mesh.child("vertices").children("vertex")) {
     const pugi::xml_node coordinates = vertex.child("coordinates");
@@ -86,7 +86,7 @@ class AmfReader {
     if (std::string_view(amf.name()) != "amf")
       throw Error(
           fmt::format("{}: the root is <{}> instead of <amf>; export the model again", name_, shown(amf.name())));
-    mm_ = unit_mm(attribute(amf, "unit"), name_);
+    mm_ = amf_unit_mm(attribute(amf, "unit"), name_);
     for (const pugi::xml_node material : amf.children("material"))
       materials_.emplace(attribute(material, "id"), material);
     for (const pugi::xml_node object : amf.children("object")) read_object(object);
@@ -103,10 +103,10 @@ class AmfReader {
     const std::string where = fmt::format("{}: object {}", name_, shown(id));
     std::vector<Part> parts;
     for (const pugi::xml_node mesh : object.children("mesh")) {
-      const std::vector<Vec3> vertices = vertices_of(mesh, mm_, where);
+      const std::vector<Vec3> vertices = amf_vertices_of(mesh, mm_, where);
       for (const pugi::xml_node volume : mesh.children("volume")) {
-        const std::string_view type = metadata(volume, "slic3r.volume_type");
-        const bool is_solid = metadata(volume, "slic3r.modifier") != "1" && (type.empty() || type == "ModelPart") &&
+        const std::string_view type = amf_metadata(volume, "slic3r.volume_type");
+        const bool is_solid = amf_metadata(volume, "slic3r.modifier") != "1" && (type.empty() || type == "ModelPart") &&
                               attribute(volume, "type") != "support";
         if (parts.size() == max_parts)
           throw Error(fmt::format("{}: more than {} volumes; simplify the model", where, max_parts));
@@ -129,10 +129,10 @@ class AmfReader {
     const pugi::xml_node described = found == materials_.end() ? pugi::xml_node() : found->second;
     part.name = where;
     for (const pugi::xml_node named : {object, described, volume})
-      if (const std::string_view name = metadata(named, "name"); !name.empty())
+      if (const std::string_view name = amf_metadata(named, "name"); !name.empty())
         part.name = fmt::format("{}: {}", name_, shown(name));
-    part.extruder = extruder_of(volume, name_);
-    if (!part.extruder) part.extruder = extruder_of(object, name_);
+    part.extruder = amf_extruder_of(volume, name_);
+    if (!part.extruder) part.extruder = amf_extruder_of(object, name_);
     std::optional<std::uint32_t> triangle_rgb;
     const std::vector<Triangle> triangles = triangles_of(volume, vertices.size(), where, triangle_rgb);
     part.mesh = submesh(vertices, triangles);

@@ -1,5 +1,6 @@
 #include "model/reach.hpp"
 
+#include <algorithm>
 #include <span>
 
 namespace cleancolor {
@@ -8,7 +9,8 @@ namespace {
 Polygons region(std::span<const Vec2> points_mm) {
   Ring ring;
   for (const Vec2 p : points_mm) ring.push_back(to_nm(p));
-  return united({area_mm2(ring) < 0 ? Ring(ring.rbegin(), ring.rend()) : ring});
+  if (area_mm2(ring) < 0) std::ranges::reverse(ring);
+  return united(Polygons{ring});
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace cleancolor {
 namespace {
 
-double area_mm2(std::span<const Vec2> polygon) {
+double outline_area_mm2(std::span<const Vec2> polygon) {
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
   return std::abs(twice) / 2;
@@ -36,13 +36,13 @@ void validate_machine(const Config& config) {
         "offsets_in = slicer: with gcode_flavor = sailfish the firmware adds the offsets of the nozzles itself; "
         "leave it at firmware");
   }
-  if (area_mm2(config.bed_shape_mm) < 1) {
+  if (outline_area_mm2(config.bed_shape_mm) < 1) {
     throw Error(
         "bed_shape: the outline encloses no area; give at least three corners, such as 0x0,200x0,200x200,0x200");
   }
   for (std::size_t i = 0; i < count; ++i) {
     const auto& area = config.extruders[i].extruder_printable_area_mm;
-    if (area.empty() || area_mm2(area) >= 1) continue;
+    if (area.empty() || outline_area_mm2(area) >= 1) continue;
     throw Error(fmt::format("extruder_printable_area: the outline of extruder {} encloses no area", i + 1));
   }
 }

@@ -5,7 +5,7 @@
 namespace cleancolor {
 namespace {
 
-constexpr double most_cells = 4e6;
+constexpr double most_wall_cells = 4e6;
 
 bool is_outer_wall(const Path& path) {
   return path.depth == 0;
@@ -19,7 +19,7 @@ LaidWalls::LaidWalls(std::span<const Path> paths) {
     if (is_outer_wall(path))
       for (const Vec2 p : path.points) box.add(p);
   if (box.empty()) return;
-  while ((box.size().x * per_mm_ + 4) * (box.size().y * per_mm_ + 4) > most_cells) per_mm_ /= 1.1;
+  while ((box.size().x * per_mm_ + 4) * (box.size().y * per_mm_ + 4) > most_wall_cells) per_mm_ /= 1.1;
   const double margin_mm = 2 / per_mm_;
   origin_ = box.min - Vec2{margin_mm, margin_mm};
   columns_ = int((box.size().x + 2 * margin_mm) * per_mm_) + 1;

@@ -8,7 +8,7 @@ namespace cleancolor {
 namespace {
 
 constexpr double step_mm = 0.25;
-constexpr double beyond_mm = 0.25;  // the border: about half a nozzle's tip
+constexpr double past_border_mm = 0.25;  // the border: about half a nozzle's tip
 
 bool hangs_over_others(const std::vector<Polygons>& regions, int extruder, Vec2 at) {
   for (int e = 0; e < int(regions.size()); ++e)
@@ -61,7 +61,7 @@ Layer with_change_places(Layer layer, const std::vector<Polygons>& regions, cons
     way.insert(way.end(), path.travel.begin(), path.travel.end());
     way.push_back(path.start());
     if (const auto clear = clear_from_mm(way, path.extruder, regions, is_first ? below : none))
-      change_at(path, way, *clear + beyond_mm);
+      change_at(path, way, *clear + past_border_mm);
   }
   return layer;
 }

@@ -16,6 +16,9 @@
 
 namespace cleancolor {
 
+/// What tells of the whole file stands in so much of its beginning.
+inline constexpr std::size_t head_bytes = 4096;
+
 /// Throws Error("file:line: what").
 [[noreturn]] void refuse_line(const GcodePrint& print, std::size_t offset, const std::string& what);
 

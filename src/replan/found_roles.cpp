@@ -15,7 +15,7 @@
 namespace cleancolor {
 namespace {
 
-constexpr double detail_mm = 0.05;
+constexpr double role_detail_mm = 0.05;
 constexpr double outer_widths = 0.8;   // middles of outer walls are nearer than that to the border
 constexpr double skirt_room_mm = 0.6;  // between a skirt and all else
 constexpr std::size_t samples = 24;    // places of a loop that are asked how deep it lies
@@ -122,7 +122,7 @@ GcodePrint with_found_roles(GcodePrint print, const AuditMachine& machine) {
         roads[runs[n].tool].push_back({runs[n].points[i], runs[n].points[i + 1], runs[n].width_mm, runs[n].tool,
                                        runs[n].closed ? Role::external_perimeter : Role::internal_infill});
     std::map<int, Polygons> regions;
-    for (const auto& [tool, own] : roads) regions[tool] = region(own, tool, detail_mm);
+    for (const auto& [tool, own] : roads) regions[tool] = region(own, tool, role_detail_mm);
     for (std::size_t n = 0; n < runs.size(); ++n) {
       const Role role = n < skirted                                ? Role::skirt_brim
                         : !runs[n].closed                          ? Role::internal_infill

@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "model/text_scan.hpp"
 #include "replan/dialect_words.hpp"
+#include "replan/driven_way.hpp"
 #include "replan/filament_book.hpp"
 #include "replan/file_parts.hpp"
 #include "replan/pieces.hpp"
@@ -22,9 +23,6 @@ namespace {
 
 constexpr std::size_t most_settings = 64;  // that a print is under at once
 
-std::int64_t to_um(double mm) {
-  return std::llround(mm * 1e3);
-}
 std::int64_t to_e5(double mm) {
   return std::llround(mm * 1e5);
 }
@@ -173,19 +171,15 @@ class Recovery {
 
   /// What was driven since the last road is no way to the next.
   void leave_run(std::size_t places) {
-    const auto to = way_.begin() + std::ptrdiff_t(std::min(places, way_.size()));
+    const std::vector<FilePoint> left = way_.leave(places);
     if (!r_.layers.empty() && !r_.layers.back().runs.empty())
-      run().leaving.insert(run().leaving.end(), way_.begin(), to);
-    back_after_ -= std::min(back_after_, std::size_t(to - way_.begin()));
-    if (forward_after_) *forward_after_ -= std::min(*forward_after_, std::size_t(to - way_.begin()));
-    if (!way_z_.empty()) way_z_.erase(way_z_.begin(), way_z_.begin() + (to - way_.begin()));
-    way_.erase(way_.begin(), to);
+      run().leaving.insert(run().leaving.end(), left.begin(), left.end());
   }
-  void leave_run() { leave_run(way_.size()); }
+  void leave_run() { leave_run(way_.places.size()); }
 
   void mark_layer() {
     if (has_tool_) refuse(at_, "a layer begins after a tool change without a road between them");
-    leave_run(words_.rises_before_layer ? rises_after_.value_or(way_.size()) : way_.size());
+    leave_run(words_.rises_before_layer ? way_.rises_after.value_or(way_.places.size()) : way_.places.size());
     has_layer_mark_ = true;
     left_header_ = false;
     mark_in_gap_ = gap_.size();
@@ -213,7 +207,7 @@ class Recovery {
     if (has_tool_) refuse(at_, "two tool changes without a road between them");
     if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
       refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
-    if (stands_aside_ && !way_.empty()) stand_ = way_.back(), way_.pop_back(), way_z_.pop_back();
+    if (stands_aside_ && !way_.places.empty()) stand_ = way_.take_last();
     leave_run();
     has_tool_ = true;
     breaks_ = true;
@@ -221,7 +215,7 @@ class Recovery {
     from_tool_ = tool_;
     tool_ = tool;
     if (words_.lifts_at_change && !has_layer_mark_ && !r_.layers.empty())
-      r_.change_lift_mm = std::max(r_.change_lift_mm, rise_mm_);
+      r_.change_lift_mm = std::max(r_.change_lift_mm, way_.rise_mm);
     gap_.push_back({raw_, at_, false});
   }
 
@@ -249,7 +243,7 @@ class Recovery {
 
   void lift_in_spiral() {
     while (move_ < behind_spiral_ && print_.moves[move_].offset == at_) ++move_;
-    spiral_.emplace_back(raw_);
+    way_.spiral.emplace_back(raw_);
     breaks_ = true;
   }
 
@@ -260,28 +254,26 @@ class Recovery {
       return;
     }
     breaks_ = true;
-    top_z_mm_ = std::max(top_z_mm_, move.to_mm.z);
+    way_.top_z_mm = std::max(way_.top_z_mm, move.to_mm.z);
     if (across && has_tool_) travelled_after_tool_ = true;
     if (move.filament_mm < 0 && across) return wipe(move);
     if (move.filament_mm > 0 && across) refuse(at_, "filament is pushed on the way");
     if (across && !has_tool_ && !gap_.empty()) ++moved_among_notes_;
     if (has_layer_mark_) left_header_ = left_header_ || across;
-    if (move.to_mm.z != from.z && !rises_after_) rises_after_ = way_.size();
-    if (!r_.layers.empty()) rise_mm_ = std::max(rise_mm_, move.to_mm.z - r_.layers.back().z_mm);
+    if (move.to_mm.z != from.z && !way_.rises_after) way_.rises_after = way_.places.size();
+    if (!r_.layers.empty()) way_.rise_mm = std::max(way_.rise_mm, move.to_mm.z - r_.layers.back().z_mm);
     if (move.filament_mm > 0) {
       const std::int64_t beyond = to_e5(move.filament_mm) - book_.back_of(move.feeds);
       if (beyond > filament_rounding_e5) refuse(at_, "plastic is pushed out on the spot, more than was drawn back");
     }
-    if (move.filament_mm < 0 && !drawn_back_) drawn_back_ = true, back_after_ = way_.size();
+    if (move.filament_mm < 0) way_.draw_back();
     if (line_.has('A') || line_.has('B') || move.feeds != move.tool)
       refuse(at_, "filament of another tool than the one in use is moved");
     book_.move(move);
-    if (move.filament_mm > 0 && !forward_after_ && book_.back_of(move.feeds) <= filament_rounding_e5)
-      forward_after_ = way_.size();
+    if (move.filament_mm > 0 && !way_.forward_after && book_.back_of(move.feeds) <= filament_rounding_e5)
+      way_.forward_after = way_.places.size();
     if (!across) return;
-    way_.push_back({to_um(move.to_mm.x), to_um(move.to_mm.y)});
-    way_z_.push_back(to_um(move.to_mm.z));
-    if (way_.size() == 1) way_state_ = states_.index();
+    way_.drive_to(move.to_mm, states_.index());
     if (const double rise = move.to_mm.z - from.z; rise > 0 && move.known_start) {
       rises_on_way_ = true;
       const double slope = rise / std::hypot(move.to_mm.x - from.x, move.to_mm.y - from.y);
@@ -294,17 +286,17 @@ class Recovery {
     const bool follows = !has_tool_ && !r_.layers.empty() && !r_.layers.back().runs.empty() && !run().fixed;
     if (!follows || move.feeds != move.tool) refuse(at_, "filament is drawn back on the way, but not after a road");
     if (run().wipe.empty()) {
-      run().wipe_from = std::move(way_);
+      run().wipe_from = std::exchange(way_.places, {});
+      way_.z_um.clear();
       const std::int64_t back = book_.back_of(move.feeds);
       run().back_before_wipe_e5 = back > filament_rounding_e5 ? back : 0;
-    } else if (!way_.empty()) {
+    } else if (!way_.places.empty()) {
       refuse(at_, "filament is drawn back on the way, but not after a road");
     }
-    way_.clear(), way_z_.clear();
-    run().wipe.push_back({{to_um(move.to_mm.x), to_um(move.to_mm.y)}, -to_e5(move.filament_mm), feed_});
+    run().wipe.push_back({file_point(move.to_mm), -to_e5(move.filament_mm), feed_});
     book_.move(move);
-    drawn_back_ = true;
-    back_after_ = 0;
+    way_.drawn_back = true;
+    way_.back_after = 0;
   }
 
   /// The first move from there on that lays plastic; else their number.  Requires: there is no less than before.
@@ -348,7 +340,7 @@ class Recovery {
       fixed.drawn_back_e5[t] = book_.back()[t] - fixed.drawn_back_e5[t];
     const Vec3 to = print_.moves[move_ - 1].to_mm;
     fixed.tool_after = tool_;
-    fixed.to = {to_um(to.x), to_um(to.y)};
+    fixed.to = file_point(to);
     run().fixed = std::move(fixed);
     r_.keeps_tools = breaks_ = true;
   }
@@ -390,7 +382,7 @@ class Recovery {
     gap_.clear();
     if (says_roles_behind_) states_.set(type_key, fmt::format(";TYPE:{}", role_name(move.role)));
     const std::uint32_t state = states_.index();
-    run().roads.push_back({.to = {to_um(move.to_mm.x), to_um(move.to_mm.y)},
+    run().roads.push_back({.to = file_point(move.to_mm),
                            .filament_e5 = to_e5(move.filament_mm),
                            .feed_mm_min = feed_,
                            .state = state,
@@ -449,27 +441,23 @@ class Recovery {
       for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
     }
     r_.layers.back().runs.push_back({.tool = tool_,
-                                     .from = {to_um(from.x), to_um(from.y)},
+                                     .from = file_point(from),
                                      .roads = {},
                                      .notes = std::move(notes),
-                                     .way = std::move(way_),
-                                     .way_z_um = rises_on_way_ ? std::move(way_z_) : std::vector<std::int64_t>{},
-                                     .spiral = std::move(spiral_),
-                                     .way_state = way_state_,
+                                     .way = std::move(way_.places),
+                                     .way_z_um = rises_on_way_ ? std::move(way_.z_um) : std::vector<std::int64_t>{},
+                                     .spiral = std::move(way_.spiral),
+                                     .way_state = way_.state,
                                      .leaving = {},
-                                     .lifted = top_z_mm_ > from.z + same_height_mm,
-                                     .drawn_back = drawn_back_ || has_tool_,
-                                     .back_after = has_tool_ ? 0 : back_after_,
-                                     .forward_after = forward_after_.value_or(~std::size_t{0})});
+                                     .lifted = way_.top_z_mm > from.z + same_height_mm,
+                                     .drawn_back = way_.drawn_back || has_tool_,
+                                     .back_after = has_tool_ ? 0 : way_.back_after,
+                                     .forward_after = way_.forward_after.value_or(~std::size_t{0})});
     if (!run().way.empty()) run().way.pop_back();  // its start
-    way_.clear(), way_z_.clear(), spiral_.clear();
+    way_ = {.state = way_.state};
     gap_.clear();
-    breaks_ = has_layer_mark_ = has_tool_ = left_header_ = drawn_back_ = travelled_after_tool_ = false;
+    breaks_ = has_layer_mark_ = has_tool_ = left_header_ = travelled_after_tool_ = false;
     moved_among_notes_ = 0;
-    back_after_ = 0;
-    rises_after_.reset();
-    forward_after_.reset();
-    rise_mm_ = top_z_mm_ = 0;
   }
 
   /// The change of tools as a stop on the way: where it stands, and its lines.
@@ -538,23 +526,16 @@ class Recovery {
 
   // Since the last road:
   std::vector<Note> gap_;  // lines to be kept
-  std::vector<FilePoint> way_;
-  std::vector<std::int64_t> way_z_;
-  std::vector<std::string> spiral_;
+  DrivenWay way_;
   bool rises_on_way_ = false;
-  std::uint32_t way_state_ = 0;
   std::size_t behind_spiral_ = 0;                  // move
   std::size_t mark_in_gap_ = 0, tool_in_gap_ = 0;  // where the layer begins and the tool changes
-  bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false, drawn_back_ = false;
+  bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false;
   bool travelled_after_tool_ = false;
   int moved_among_notes_ = 0;
   bool says_roles_behind_ = false;  // roads say behind them what they are: verbose comments of Slic3r
   bool stands_aside_ = false;       // at changes of tools: the file's ooze_prevention
   std::optional<FilePoint> stand_;  // where it does so this time
-  std::size_t back_after_ = 0;
-  std::optional<std::size_t> rises_after_, forward_after_;  // so many places of the way
-  double rise_mm_ = 0;                                      // above the layer
-  double top_z_mm_ = 0;                                     // of the nozzle
   std::vector<ChangedHeader> changed_;
 };
 

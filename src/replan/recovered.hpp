@@ -12,6 +12,7 @@
 // Places are the file's own, in whole micrometres, and filament in 1e-5 mm, so that nothing drifts.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -27,6 +28,12 @@ struct FilePoint {
   std::int64_t x_um = 0, y_um = 0;
   friend bool operator==(const FilePoint&, const FilePoint&) = default;
 };
+inline std::int64_t um_of(double mm) {
+  return std::llround(mm * 1e3);
+}
+inline FilePoint file_point(Vec3 mm) {
+  return {um_of(mm.x), um_of(mm.y)};
+}
 
 /// Of a road that goes round: G2, G3. Never a whole circle.
 struct RoadArc {

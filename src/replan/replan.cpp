@@ -11,13 +11,12 @@
 #include "replan/attempts.hpp"
 #include "replan/cura.hpp"
 #include "replan/dialect_words.hpp"
+#include "replan/file_parts.hpp"
 #include "replan/times.hpp"
 #include "replan/told_filament.hpp"
 
 namespace cleancolor {
 namespace {
-
-constexpr std::size_t most_head_bytes = 4096;
 
 std::string_view producer_of(const GcodePrint& print) {
   return print.facts.producer.empty() ? std::string_view("an unknown slicer") : print.facts.producer;
@@ -54,7 +53,7 @@ Replanned unchanged(const GcodePrint& print, std::string reason) {
 
 Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request,
                     const Progress& progress) {
-  if (std::string_view(*print.text).substr(0, most_head_bytes).find(replanned_mark) != std::string_view::npos)
+  if (std::string_view(*print.text).substr(0, head_bytes).find(replanned_mark) != std::string_view::npos)
     return unchanged(print, "it was re-planned before");
   require_known_dialect(print);
   require_whole(print);

@@ -7,8 +7,8 @@
 namespace cleancolor {
 namespace {
 
-constexpr double least_mm = 0.09;     // of a storey that does not stand on the one before
-constexpr double rounding_mm = 0.01;  // of heights that are told
+constexpr double least_mm = 0.09;              // of a storey that does not stand on the one before
+constexpr double told_height_error_mm = 0.01;  // of heights that are told
 
 double top_mm(const Slices& layers, std::size_t k) {
   return layers.slabs[k].print_z_mm;
@@ -23,10 +23,11 @@ bool has_part(const Slices& layers, std::size_t k) {
 /// Whether layer k is one above a storey that ends there.
 bool begins_storey(const Slices& layers, std::size_t k, double below_mm) {
   const double height_mm = top_mm(layers, k) - below_mm;
-  if (has_part(layers, k)) return height_mm >= least_mm || bottom_mm(layers, k) >= below_mm - rounding_mm;
+  if (has_part(layers, k)) return height_mm >= least_mm || bottom_mm(layers, k) >= below_mm - told_height_error_mm;
   std::size_t next = k;
   while (next < layers.slabs.size() && !has_part(layers, next)) ++next;
-  const bool carries = next < layers.slabs.size() && bottom_mm(layers, next) >= top_mm(layers, k) - rounding_mm;
+  const bool carries =
+      next < layers.slabs.size() && bottom_mm(layers, next) >= top_mm(layers, k) - told_height_error_mm;
   return carries && height_mm >= least_mm;
 }
 
@@ -42,8 +43,8 @@ void fill(Slices& storeys, Slices& around, const Slices& all, const Slices& all_
   const Slab& slab = storeys.slabs.back();
   const double bottom = slab.print_z_mm - slab.height_mm;
   for (std::size_t k = 0; k < all.slabs.size(); ++k) {
-    if (k == own || top_mm(all, k) < bottom + rounding_mm) continue;
-    const bool is_below_top = bottom_mm(all, k) < slab.print_z_mm - rounding_mm;
+    if (k == own || top_mm(all, k) < bottom + told_height_error_mm) continue;
+    const bool is_below_top = bottom_mm(all, k) < slab.print_z_mm - told_height_error_mm;
     if (has_part(all, k) && is_below_top) {
       for (std::size_t e = 0; e < all.regions[k].size(); ++e) unite(storeys.regions.back()[e], all.regions[k][e]);
       unite(storeys.outlines.back(), all.outlines[k]);
@@ -56,7 +57,7 @@ void fill(Slices& storeys, Slices& around, const Slices& all, const Slices& all_
 bool stand_on_each_other(const Slices& layers) {
   double below_mm = 0;
   for (std::size_t k = 0; k < layers.slabs.size(); ++k) {
-    if (!has_part(layers, k) || bottom_mm(layers, k) < below_mm - rounding_mm) return false;
+    if (!has_part(layers, k) || bottom_mm(layers, k) < below_mm - told_height_error_mm) return false;
     below_mm = top_mm(layers, k);
   }
   return true;

@@ -10,11 +10,10 @@
 #include "model/text_scan.hpp"
 #include "reader/dialect.hpp"
 #include "replan/dialect_words.hpp"
+#include "replan/file_parts.hpp"
 
 namespace cleancolor {
 namespace {
-
-constexpr std::size_t head_bytes = 4096;
 
 std::string duration_text(double seconds) {
   const long all = std::lround(seconds);

@@ -10,12 +10,12 @@
 #include <string_view>
 
 #include "model/text_scan.hpp"
+#include "replan/file_parts.hpp"
 
 namespace cleancolor {
 namespace {
 
 constexpr std::size_t end_bytes = 1 << 18;  // figures stand behind the last road, before or in the configuration block
-constexpr std::size_t head_bytes = 4096;
 
 /// A figure within a text, as "1885.1" of "1885.1mm (4.5cm3)".
 struct Figure {

@@ -1,0 +1,36 @@
+#include "replan/driven_way.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cleancolor {
+
+void DrivenWay::drive_to(Vec3 to_mm, std::uint32_t under_state) {
+  places.push_back(file_point(to_mm));
+  z_um.push_back(um_of(to_mm.z));
+  if (places.size() == 1) state = under_state;
+}
+
+void DrivenWay::draw_back() {
+  if (!drawn_back) back_after = places.size();
+  drawn_back = true;
+}
+
+std::vector<FilePoint> DrivenWay::leave(std::size_t count) {
+  const auto gone = std::ptrdiff_t(std::min(count, places.size()));
+  std::vector<FilePoint> left(places.begin(), places.begin() + gone);
+  places.erase(places.begin(), places.begin() + gone);
+  z_um.erase(z_um.begin(), z_um.begin() + gone);
+  back_after -= std::min(back_after, left.size());
+  if (forward_after) *forward_after -= std::min(*forward_after, left.size());
+  return left;
+}
+
+FilePoint DrivenWay::take_last() {
+  const FilePoint last = places.back();
+  places.pop_back();
+  z_um.pop_back();
+  return last;
+}
+
+}  // namespace cleancolor
