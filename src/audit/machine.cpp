@@ -101,10 +101,17 @@ class Finder {
     } else if (tools == 1) {
       take({{0, 0}}, "one nozzle");
     } else if (request_.idle_nozzle == IdleNozzle::parked || request_.idle_nozzle == IdleNozzle::docked) {
-      take(std::vector<Vec2>(tools), "--idle-nozzle");  // nobody asks where they are
-      if (!print_.facts.offsets_in) told_in_ = OffsetsIn::firmware;
+      // Such printers take their offsets into account themselves, unless the file shows that the slicer did.
+      if (const std::vector<Vec2> guessed = guessed_offsets_mm(print_); shows_offsets(guessed)) {
+        take_guess(guessed);
+      } else {
+        take(std::vector<Vec2>(tools), "--idle-nozzle");
+        if (!print_.facts.offsets_in) told_in_ = OffsetsIn::firmware;
+      }
     } else {
-      guess();
+      const std::vector<Vec2> guessed = guessed_offsets_mm(print_);
+      if (guessed.empty()) fail_without_offsets(print_);
+      take_guess(guessed);
     }
     if (offsets_.size() < tools) {
       throw Error(fmt::format("{}: {} nozzles print, but offsets of {} are given ({}); give one for each: {}",
@@ -115,9 +122,11 @@ class Finder {
     if (!request_.nozzle_offset_mm.empty() || request_.printer) compare_with_file();
   }
 
-  void guess() {
-    const std::vector<Vec2> guessed = guessed_offsets_mm(print_);
-    if (guessed.empty()) fail_without_offsets(print_);
+  static bool shows_offsets(const std::vector<Vec2>& guessed) {
+    return std::ranges::any_of(guessed, [](Vec2 offset) { return offset != Vec2{}; });
+  }
+
+  void take_guess(const std::vector<Vec2>& guessed) {
     take(guessed, "a guess from the geometry");
     told_in_ = OffsetsIn::slicer;
     progress_.warn(

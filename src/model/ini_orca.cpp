@@ -113,8 +113,7 @@ constexpr std::array<OrcaName, 2> of_prints = {{
     {"print_retract_length", "retract_length"},
     {"print_retract_lift", "retract_lift"},
 }};
-constexpr std::array<std::string_view, 4> kept = {"ironing", "complete_objects", "external_perimeters_first",
-                                                  "use_volumetric_e"};
+constexpr std::array<std::string_view, 3> kept = {"complete_objects", "external_perimeters_first", "use_volumetric_e"};
 
 bool is_of_nozzle(std::string_view key) {
   return key.ends_with("extrusion_width") || key == "first_layer_height";
@@ -151,7 +150,6 @@ std::vector<IniEntry> from_orca(const std::vector<IniEntry>& entries) {
   };
   for (const IniEntry& entry : entries) {
     const std::string_view key = entry.key, value = entry.value;
-    if (key == "ironing_type") put("ironing", value == "no ironing" ? "0" : "1", entry);
     const auto said =
         std::ranges::find_if(values, [&](const OrcaValue& v) { return v.orca == key && v.value == value; });
     if (said != values.end()) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 
 #include "audit/timeline.hpp"
 #include "base/error.hpp"
@@ -57,10 +59,12 @@ Attempts::Attempts(const GcodePrint& print, const AuditMachine& machine, const R
 
 Attempt Attempts::planned(RampartExtent extent) const {
   Attempt made;
+  Progress own = progress_;
+  own.warn = [&](const std::string& warning) { made.warnings.push_back(warning); };
   {
     const ReplannedLayers planned =
         planned_layers(scene_, recovered_, source(), machine_, config_,
-                       {.plans = !request_.keeps_order, .rampart = extent, .threads = request_.threads}, progress_);
+                       {.plans = !request_.keeps_order, .rampart = extent, .threads = request_.threads}, own);
     progress_.advance("writing", 0);
     made.has_rampart = planned.has_rampart;
     made.stands_apart = planned.stands_apart;
@@ -87,6 +91,7 @@ void Attempts::require_same(const GcodePrint& made) const {
 Attempt Attempts::with(RampartExtent extent) const {
   Attempt made = planned(extent);
   require_same(made.print);
+  for (const std::string& warning : made.warnings) progress_.warn(warning);
   return made;
 }
 
@@ -105,13 +110,22 @@ std::optional<Attempt> Attempts::best() const {
   Attempt best;
   Cleanness before;
   // A rampart is made one layer after the other: meanwhile another thread can judge the file.
-  const Progress quiet{.interrupted = progress_.interrupted};
+  std::exception_ptr refused;
+  std::atomic<bool> is_refused = false;
+  const Progress quiet{.interrupted = [&] { return is_refused || progress_.interrupted(); }};
   parallel_for(2, request_.threads, [&](int i) {
-    if (i == 0)
-      best = judged(RampartExtent::all);
-    else
-      before = cleanness(print_, machine_, 1, quiet);
+    try {
+      if (i == 0)
+        best = judged(RampartExtent::all);
+      else
+        before = cleanness(print_, machine_, 1, quiet);
+    } catch (...) {
+      if (i == 0) refused = std::current_exception();
+      if (i != 0 && !is_refused) throw;
+      is_refused = true;
+    }
   });
+  if (refused) std::rethrow_exception(refused);
   const std::vector<RampartExtent> others =
       best.has_rampart ? worth_trying(best.cleanness, before, config_) : std::vector<RampartExtent>{};
   const bool had_rampart = best.has_rampart, stands_apart = best.stands_apart;
@@ -129,6 +143,7 @@ std::optional<Attempt> Attempts::best() const {
   if (had_rampart && !best.has_rampart)
     progress_.warn(
         fmt::format("{}: a rampart would take more time than it is worth; it is re-planned without one", print_.name));
+  for (const std::string& warning : best.warnings) progress_.warn(warning);
   best.before = before;
   return best;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "replan/recovered.hpp"
 #include "replan/removed.hpp"
@@ -23,7 +24,8 @@ struct Attempt {
   std::string text;
   GcodePrint print;
   bool has_rampart = false, stands_apart = false;
-  Cleanness before = {}, cleanness = {};  // where it was judged: of the file, of this
+  Cleanness before = {}, cleanness = {};   // where it was judged: of the file, of this
+  std::vector<std::string> warnings = {};  // that hold for this one
 };
 
 class Attempts {

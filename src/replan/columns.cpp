@@ -76,7 +76,8 @@ Slices without_columns_beside(const Slices& slices, const Slices& part, double a
   const std::vector<Box<Vec2>> boxes = columns(slices, apart_mm);
   std::vector<char> holds_part(boxes.size(), 0);
   for (const Polygons outline : part.outlines)
-    for (const Ring& ring : outline) holds_part[column_of(ring, boxes)] = 1;
+    for (const Ring& ring : outline)
+      if (const std::size_t column = column_of(ring, boxes); column < boxes.size()) holds_part[column] = 1;
   return with_rings(slices, [&](const Ring& ring) { return holds_part[column_of(ring, boxes)] != 0; });
 }
 

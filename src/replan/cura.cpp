@@ -143,7 +143,6 @@ class Reading {
 
   const GcodePrint& print_;
   std::map<Role, Frequent> width_mm_, speed_mm_s_;
-  Frequent skin_flow_{0.0005};  // mm of filament a mm
   Frequent first_mm_s_{0.01}, travel_mm_s_{0.01}, z_mm_s_{0.01};
   std::vector<Habits> habits_;
   std::size_t backs_at_layers_ = 0;

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "model/text_scan.hpp"
+#include "replan/modal.hpp"
 #include "replan/refusals.hpp"
 
 namespace cleancolor {
@@ -63,15 +64,15 @@ std::size_t line_end(std::string_view text, std::size_t at) {
 }
 
 std::size_t behind_wipe(std::string_view text, std::size_t at, const DialectWords& words) {
-  // Moves, and what OrcaSlicer tells between road and wipe: that the object ends, another acceleration.
-  constexpr std::array<std::string_view, 6> passed = {"\n",   "G",   "; stop printing object", "EXCLUDE_OBJECT_END",
-                                                      "M204", "M625"};
   std::size_t behind = at;
   for (std::size_t p = at; p < text.size() && behind == at; p = line_end(text, p)) {
-    const std::string_view rest = text.substr(p);
-    if (rest.starts_with(words.wipe_ends)) behind = line_end(text, p);
-    const bool passes = std::ranges::any_of(passed, [&](std::string_view begin) { return rest.starts_with(begin); });
-    if (!passes && !rest.starts_with(words.wipe_begins)) break;
+    const std::string_view line = text.substr(p, text.find('\n', p) - p);
+    if (line.starts_with(words.wipe_ends)) behind = line_end(text, p);
+    // Between road and wipe some slicers tell that the object ends, or another acceleration.
+    GcodeLine told;
+    const bool passes = line.empty() || line.starts_with('G') || line.starts_with(words.wipe_begins) ||
+                        (!parse_line(line, told) && modal_line(told));
+    if (!passes) break;
   }
   return behind;
 }

@@ -147,8 +147,11 @@ void StateLog::set_first(std::string_view key, std::string_view text) {
 }
 
 std::uint32_t StateLog::index() {
-  if (std::exchange(changed_, false)) index_ = known_.try_emplace(now_, std::uint32_t(known_.size())).first->second;
-  return index_;
+  if (!std::exchange(changed_, false)) return index_;
+  const auto [found, is_new] = known_.try_emplace(now_, std::uint32_t(known_.size()));
+  if (is_new)
+    for (const auto& [key, text] : now_) bytes_ += text.size();
+  return index_ = found->second;
 }
 
 std::vector<ModalState> StateLog::all() && {

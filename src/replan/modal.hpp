@@ -52,6 +52,7 @@ class StateLog {
   void set_first(std::string_view key, std::string_view text);  // where it is not set yet
 
   std::size_t size() const { return now_.size(); }  // settings
+  std::size_t bytes() const { return bytes_; }      // of text, in all states
   std::uint32_t index();                            // of the state that holds now
   std::vector<ModalState> all() &&;                 // in the order of their indices
 
@@ -59,6 +60,7 @@ class StateLog {
   ModalState now_;
   bool changed_ = true;
   std::uint32_t index_ = 0;
+  std::size_t bytes_ = 0;
   std::map<ModalState, std::uint32_t> known_;
 };
 

@@ -31,11 +31,6 @@ double share_at(const Piece& piece, FilePoint at) {
   return whole > 0 ? length_um(piece.from, at) / whole : 0;
 }
 
-Piece straight_where_short(Piece piece) {
-  if (piece.arc && length_um(piece.from, piece.to) < least_arc_um) piece.arc.reset();
-  return piece;
-}
-
 }  // namespace
 
 std::optional<RoadArc> arc_of(const GcodeLine& line, Vec2 from_mm, Vec2 to_mm) {
@@ -53,6 +48,15 @@ double length_um(const Piece& piece) {
   if (!piece.arc) return length_um(piece.from, piece.to);
   return std::abs(sweep_rad(*piece.arc, piece.from, piece.to)) * length_um(piece.arc->center, piece.from);
 }
+
+namespace {
+
+Piece straight_where_short(Piece piece) {
+  if (piece.arc && length_um(piece) < least_arc_um) piece.arc.reset();
+  return piece;
+}
+
+}  // namespace
 
 FilePoint between(FilePoint a, FilePoint b, double share) {
   return {a.x_um + std::llround(double(b.x_um - a.x_um) * share),

@@ -91,12 +91,39 @@ void by_tools_of(const RecoveredLayer& layer, std::vector<Path>& walls) {
       wall.extruder = layer.runs.front().tool;
 }
 
+constexpr double beside_skirt_mm = 0.3;  // between two roads
+
+bool meets(const Path& path, const Polygons& skirt) {
+  if (skirt.empty()) return false;
+  const double least_mm = path.road().width_mm / 2 + beside_skirt_mm;
+  for (std::size_t i = 0; i < path.segments(); ++i) {
+    const Vec2 a = path.points[i], b = path.points[(i + 1) % path.points.size()];
+    const int steps = 1 + int(distance(a, b) / path.road().width_mm);
+    for (int s = 0; s <= steps; ++s)
+      if (border_distance_mm(skirt, lerp(a, b, double(s) / steps)) < least_mm) return true;
+  }
+  return false;
+}
+
+/// Whether a wall would stand on a skirt.
+bool meets_skirts(const Scene& scene, const PrintedRampart& rampart) {
+  for (std::size_t k = 0; k < scene.skirts.size(); ++k) {
+    if (scene.skirts[k].empty() || !scene.storeys.is_storey[k]) continue;
+    const Polygons skirt = scene.skirts[k];
+    for (const Path& wall : rampart.paths(int(scene.storeys.of_layer[k])))
+      if (wall.road().role == Role::rampart && meets(wall, skirt)) return true;
+  }
+  return false;
+}
+
 /// Between storeys it has none.
-Layer with_walls(Layer layer, const Storeys& storeys, const PrintedRampart& rampart, const RecoveredPrint& recovered,
+Layer with_walls(Layer layer, const Scene& scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
                  const Config& config) {
   const auto k = std::size_t(layer.index);
-  if (!storeys.is_storey[k]) return layer;
-  std::vector<Path> paths = rampart.paths(int(storeys.of_layer[k]));
+  if (!scene.storeys.is_storey[k]) return layer;
+  std::vector<Path> paths = rampart.paths(int(scene.storeys.of_layer[k]));
+  const Polygons skirt = scene.skirts[k];
+  std::erase_if(paths, [&](const Path& loop) { return loop.road().role != Role::rampart && meets(loop, skirt); });
   if (recovered.keeps_tools) by_tools_of(recovered.layers[k], paths);
   limit_speeds(paths, config);
   std::ranges::move(layer.paths, std::back_inserter(paths));
@@ -177,7 +204,7 @@ std::vector<Layer> in_plain_order(const Scene& scene, const PrintedRampart& ramp
   std::vector<Layer> layers = scene.layers;
   for (Layer& layer : layers) {
     const std::vector<Stop>& stops = scene.stops[std::size_t(layer.index)];
-    std::vector<Layer> parts = parts_of(with_walls(std::move(layer), scene.storeys, rampart, recovered, config), stops);
+    std::vector<Layer> parts = parts_of(with_walls(std::move(layer), scene, rampart, recovered, config), stops);
     layer = parts.front();
     layer.paths.clear();
     for (Layer& part : parts) {
@@ -277,6 +304,10 @@ ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recover
   std::optional<PrintedRampart> rampart;
   try {
     rampart.emplace(around, use, config, options.threads);
+    if (meets_skirts(scene, *rampart)) {
+      around = around_skirts(scene);
+      rampart.emplace(around, use, config, options.threads);
+    }
   } catch (const Error& fault) {
     progress.warn(fmt::format("{}: {}; it is re-planned without a rampart", print.name, fault.what()));
     config.rampart = RampartShape::off;
@@ -303,7 +334,7 @@ ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recover
     const std::size_t storey = scene.storeys.of_layer[std::size_t(k)];
     const PackedPolygons& outline = scene.storeys.part.outlines[storey];
     Layer layer = scene.layers[std::size_t(k)];
-    if (k < walled) layer = with_walls(std::move(layer), scene.storeys, *rampart, recovered, config);
+    if (k < walled) layer = with_walls(std::move(layer), scene, *rampart, recovered, config);
     PlanScene own = plan_scene(scene.storeys.part, use, config, *rampart, int(storey));
     if (k >= walled) own.site = {};
     if (!own.site.part.empty()) own.site.part = outline;

@@ -21,7 +21,8 @@
 namespace cleancolor {
 namespace {
 
-constexpr std::size_t most_settings = 64;  // that a print is under at once
+constexpr std::size_t most_settings = 64;           // that a print is under at once
+constexpr std::size_t most_state_bytes = 64 << 20;  // of all that held at some time
 
 std::int64_t to_e5(double mm) {
   return std::llround(mm * 1e5);
@@ -63,6 +64,8 @@ class Recovery {
   }
 
   void take_state(const ModalLine& what) {
+    if (states_.bytes() > most_state_bytes)
+      refuse(at_, "what holds for roads changes too often for so long names; shorten the names of objects");
     states_.take(what, raw_);
     if (states_.size() > most_settings)
       refuse(at_,

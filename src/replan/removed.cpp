@@ -51,8 +51,6 @@ class TowerChange {
     } else if (line.letter == 'G') {
       const bool known = line.number <= 1 || line.number == 4 || line.number == 92;
       if (!known) refuse(text);
-    } else if (line.letter == 'M' && (line.number == 220 || (line.number == 900 && changes_ == 0))) {
-      return;  // the tower is printed at its own speed, and begun without pressure advance
     } else if (is_harmless(line) || line.number == 104 || line.number == 109) {
       take(text);
     } else {

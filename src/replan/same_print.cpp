@@ -24,6 +24,35 @@ bool is_kept(const GcodeMove& move) {
   return move.role != Role::rampart && move.role != Role::refill;
 }
 
+/// Of one tool, at one height, um.
+using Place = std::pair<int, std::int64_t>;
+
+Place place_of(const GcodeMove& move) {
+  return {move.feeds, std::llround(move.to_mm.z * 1e3)};
+}
+
+std::map<Place, double> filament_of_layers_mm(const GcodePrint& print, const std::set<Role>& without) {
+  std::map<Place, double> sums;
+  for (std::size_t i = 0; i < print.moves.size(); ++i)
+    if (lays_plastic(print, i) && is_kept(print.moves[i]) && !without.contains(print.moves[i].role))
+      sums[place_of(print.moves[i])] += print.moves[i].filament_mm;
+  return sums;
+}
+
+/// The first layer of a tool that takes another amount; nothing where all is the same but for rounding.
+std::optional<std::string> changed_layer(const GcodePrint& before, const GcodePrint& after,
+                                         const std::set<Role>& without) {
+  const auto old_mm = filament_of_layers_mm(before, without), new_mm = filament_of_layers_mm(after, without);
+  for (const auto& [place, mm] : old_mm) {
+    const auto found = new_mm.find(place);
+    const double now = found == new_mm.end() ? 0 : found->second;
+    if (std::abs(now - mm) > same_share * mm + rounding_mm)
+      return fmt::format("extruder {} pushes {:.3f} mm of filament at z {:.3f} instead of {:.3f}", place.first + 1, now,
+                         double(place.second) * 1e-3, mm);
+  }
+  return std::nullopt;
+}
+
 std::map<ToolRole, double> filament_mm(const GcodePrint& print) {
   std::map<ToolRole, double> sums;
   for (std::size_t i = 0; i < print.moves.size(); ++i)
@@ -48,7 +77,7 @@ double cell_size_mm(const GcodePrint& print) {
 /// Length of road in each cell of one tool and layer height, in cells that roads pass through their middles; ascending.
 using Cell = std::pair<std::int64_t, std::int64_t>;
 using LayerCells = std::vector<std::pair<Cell, double>>;
-using Cells = std::map<std::pair<int, std::int64_t>, LayerCells>;
+using Cells = std::map<Place, LayerCells>;
 
 void join_same(LayerCells& cells) {
   std::ranges::sort(cells);
@@ -69,7 +98,7 @@ Cells cells(const GcodePrint& print, const std::set<Role>& without, double cell_
     if (!lays_plastic(print, i) || !is_kept(print.moves[i])) continue;
     if (without.contains(print.moves[i].role)) continue;
     const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
-    LayerCells& layer = all[{print.moves[i].feeds, std::llround(b.z * 1e3)}];
+    LayerCells& layer = all[place_of(print.moves[i])];
     const double length = way_mm(print, i);
     const int steps = int(length / step_mm) + 1;
     for (int s = 0; s < steps; ++s) {
@@ -144,6 +173,7 @@ std::optional<std::string> difference(const GcodePrint& before, const GcodePrint
   }
   for (const auto& [what, mm] : new_mm)
     if (!old_mm.contains(what)) return fmt::format("there is {} that was not there", role_name(what.second));
+  if (auto what = changed_layer(before, after, without)) return what;
   const double cell_mm = cell_size_mm(before);
   Cells old_cells, new_cells;
   parallel_for(2, options.threads,

@@ -20,10 +20,13 @@ namespace cleancolor {
 namespace {
 
 constexpr double detail_mm = 0.02;  // of recovered regions
+constexpr std::size_t most_layers = 20'000;
 constexpr double same_width_mm = 0.02;
-constexpr double same_speed = 0.02;        // share
-constexpr double crack_mm = 0.05;          // between two colours is no air
-constexpr std::size_t depth_samples = 16;  // places of a loop that are asked how deep it lies
+constexpr double same_speed = 0.02;            // share
+constexpr double brim_gap_mm = 1;              // up to the part, or its next loop
+constexpr std::size_t most_skirt_loops = 100;  // in a layer, that are looked at one by one
+constexpr double crack_mm = 0.05;              // between two colours is no air
+constexpr std::size_t depth_samples = 16;      // places of a loop that are asked how deep it lies
 
 /// 0 along the border of its zone, 1 the next loop inside, ...
 int depth_of(const Path& path, const Zone* zone) {
@@ -72,28 +75,58 @@ bool tells_height(const GcodeMove& move) {
          move.role != Role::ironing;
 }
 
-/// What there is of the part in each layer, and of all.
+/// What there is of the part in each layer, of all but skirts, and of skirts.
 struct LayerSlices {
   Slices part, around;
+  std::vector<PackedPolygons> skirts;
 };
+
+using RunRoads = std::vector<LaidRoad>;
+
+/// Joins what touches the region, as loops of a brim, to it. Returns: the others, skirts.
+RunRoads join_brim(const std::vector<RunRoads>& loops, Polygons& region) {
+  std::vector<char> is_joined(loops.size(), loops.size() > most_skirt_loops ? 1 : 0);
+  for (bool found = true; found;) {
+    found = false;
+    const Polygons near = offset(region, brim_gap_mm, Corners::round);
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      if (is_joined[i] != 0) continue;
+      const Polygons loop = plastic(loops[i], detail_mm);
+      if (intersection(near, loop).empty()) continue;
+      is_joined[i] = 1;
+      found = true;
+      region = united(region, filled(loop));
+    }
+  }
+  RunRoads skirts;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (is_joined[i] == 0) skirts.insert(skirts.end(), loops[i].begin(), loops[i].end());
+    if (loops.size() > most_skirt_loops) region = united(region, filled(plastic(loops[i], detail_mm)));
+  }
+  return skirts;
+}
 
 /// Returns: what the nozzles' roads of the part enclose.
 std::vector<Polygons> slice_layer(std::size_t k, const RecoveredLayer& layer, const GcodePrint& print,
                                   const AuditMachine& machine, LayerSlices& slices) {
-  std::vector<LaidRoad> roads, extra;
+  RunRoads roads, extra;
+  std::vector<RunRoads> loops;  // of skirt and brim
   double height_mm = 0;
   for (const RecoveredRun& run : layer.runs) {
     FilePoint from = run.from;
+    loops.emplace_back();
     for (const RunRoad& road : run.roads) {
       const GcodeMove& move = print.moves[road.move];
       Vec2 at = place_mm(from, run.tool, machine);
       for (const Vec2 to : places_mm(road, run.tool, print, machine)) {
-        (is_auxiliary(move.role) ? extra : roads).push_back({at, to, road_width_mm(move), run.tool, move.role});
+        RunRoads& all = move.role == Role::skirt_brim ? loops.back() : is_auxiliary(move.role) ? extra : roads;
+        all.push_back({at, to, road_width_mm(move), run.tool, move.role});
         at = to;
       }
       if (tells_height(move)) height_mm = std::max(height_mm, std::round(move.height_mm * 1e4) / 1e4);
       from = road.to;
     }
+    if (loops.back().empty()) loops.pop_back();
   }
   std::vector<Polygons> regions;
   Polygons outline;
@@ -106,7 +139,9 @@ std::vector<Polygons> slice_layer(std::size_t k, const RecoveredLayer& layer, co
   slices.part.outlines[k] = outline;
   slices.part.slabs[k] = {.print_z_mm = layer.z_mm,
                           .height_mm = std::clamp(height_mm > 0 ? height_mm : layer.height_mm, 0.01, 5.)};
-  slices.around.outlines[k] = extra.empty() ? outline : united(outline, filled(plastic(extra, detail_mm)));
+  Polygons around = extra.empty() ? outline : united(outline, filled(plastic(extra, detail_mm)));
+  if (!loops.empty()) slices.skirts[k] = plastic(join_brim(loops, around), detail_mm);
+  slices.around.outlines[k] = around;
   return regions;
 }
 
@@ -160,21 +195,39 @@ Scene scene_of(const RecoveredPrint& recovered, const GcodePrint& print, const A
                int threads) {
   Scene scene;
   const std::size_t count = recovered.layers.size();
+  if (count > most_layers)
+    throw Error(fmt::format("{}: more than {} layers; slice with thicker ones", print.name, most_layers));
   LayerSlices slices;
   slices.part.slabs.resize(count);
   slices.part.regions.resize(count);
   for (Slices* all : {&slices.part, &slices.around}) all->outlines.resize(count);
+  slices.skirts.resize(count);
   scene.layers.resize(count);
   scene.stops.resize(count);
   parallel_for(int(count), threads,
                [&](int k) { recover_layer(std::size_t(k), recovered, print, machine, keeps_seams, slices, scene); });
   scene.storeys = storeys(std::move(slices.part), std::move(slices.around));
+  scene.skirts = std::move(slices.skirts);
   const auto shield = shield_runs(recovered, print);
   scene.has_shield = !shield.empty();
   for (std::size_t k = 0; k < shield.size(); ++k)
     for (const std::size_t i : shield[k]) scene.layers[k].paths[i] = as_wall(std::move(scene.layers[k].paths[i]));
+  if (scene.has_shield) {
+    scene.storeys.around = around_skirts(scene);
+    scene.skirts.assign(count, {});
+  }
   require_part(scene, print);
   return scene;
+}
+
+Slices around_skirts(const Scene& scene) {
+  Slices around = scene.storeys.around;
+  for (std::size_t k = 0; k < scene.skirts.size(); ++k) {
+    if (scene.skirts[k].empty()) continue;
+    PackedPolygons& outline = around.outlines[scene.storeys.of_layer[k]];
+    outline = united(outline, filled(scene.skirts[k]));
+  }
+  return around;
 }
 
 Vec2 place_mm(FilePoint at, int tool, const AuditMachine& machine) {

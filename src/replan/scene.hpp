@@ -30,6 +30,7 @@ struct Scene {
   Storeys storeys;
   std::vector<Layer> layers;             // their paths as in the file
   std::vector<std::vector<Stop>> stops;  // of each layer
+  std::vector<PackedPolygons> skirts;    // of each layer: loops that stand apart from all else, but for shields
   bool has_shield = false;
 };
 
@@ -38,5 +39,8 @@ struct Scene {
 /// Cost: some 4 us of CPU a road.
 Scene scene_of(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine, bool keeps_seams,
                int threads);
+
+/// The storeys' outlines with all that skirts enclose.
+Slices around_skirts(const Scene& scene);
 
 }  // namespace cleancolor

@@ -19,7 +19,7 @@ namespace cleancolor {
 
 struct Storeys {
   Slices part;                        // slab on slab, from the bed up
-  Slices around;                      // the same with all else that is printed: what a rampart stands around
+  Slices around;                      // the same with all else but skirts: what a rampart stands around
   std::vector<std::size_t> of_layer;  // each layer is that storey, or hangs over it; the first, where it is below all
   std::vector<bool> is_storey;        // of each layer
 };

@@ -26,6 +26,7 @@ struct Figure {
 std::vector<Figure> figures(std::string_view text, std::size_t begin, std::size_t end) {
   const auto is_digit = [&](std::size_t i) { return std::isdigit(static_cast<unsigned char>(text[i])) != 0; };
   std::vector<Figure> found;
+  end = std::min(end, text.size());
   for (std::size_t i = begin; i < end; ++i) {
     if (!is_digit(i) || (i > begin && std::isalpha(static_cast<unsigned char>(text[i - 1])) != 0)) continue;
     std::size_t last = i;
@@ -48,7 +49,11 @@ void retell(std::string& text, const Figure& figure, double value) {
 
 /// The shares that the figures of a line are of: of each tool, or of each that prints.
 std::optional<std::vector<double>> shares_of(std::size_t count, const std::vector<double>& share) {
-  if (count == share.size()) return share;
+  if (count >= share.size()) {  // tools that print nothing may stand at the end, too
+    std::vector<double> all = share;
+    all.resize(count, 0.);
+    return all;
+  }
   std::vector<double> printing;
   std::ranges::copy_if(share, std::back_inserter(printing), [](double s) { return s > 0; });
   if (count == printing.size()) return printing;

@@ -50,8 +50,9 @@ bool is_worth_it(const Cleanness& print, const Cleanness& before, const Config& 
   const double now_mm3 = spoilt_mm3(print, config), before_mm3 = spoilt_mm3(before, config);
   const double error_mm3 = passed_share * before_mm3 + passed_mm3;
   if (now_mm3 > before_mm3 + error_mm3) return false;
-  const bool saves_more_than_it_takes =
-      now_mm3 < before_mm3 - error_mm3 && now_mm3 * print.time_s < before_mm3 * before.time_s;
+  const bool saves_more_than_it_takes = now_mm3 < before_mm3 - error_mm3 &&
+                                        now_mm3 * print.time_s < before_mm3 * before.time_s &&
+                                        print.time_s <= most_longer * before.time_s;
   return saves_more_than_it_takes || print_cost(print, before, config) < print_cost(before, before, config);
 }
 

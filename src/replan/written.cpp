@@ -206,7 +206,8 @@ class Writing {
         const int next = in_part && i + 1 < planned.paths.size() ? planned.paths[i + 1].source : -1;
         if (in_part && next < 0) fail("a stroke leads nowhere");
         own_path(path, in_part ? recovered_.states[source.runs.at(std::size_t(next)).roads.front().state]
-                               : of_no_object(recovered_.states[plain_state_[k][std::size_t(path.extruder)]]));
+                               : state_of_wall(source, recovered_.states[plain_state_[k][std::size_t(path.extruder)]],
+                                               path.extruder));
         continue;
       }
       const RecoveredRun& run = source.runs.at(std::size_t(path.source));
@@ -250,13 +251,15 @@ class Writing {
     for (const Vec2 p : path.travel) way.push_back(in_file(p, path.extruder));
     way.push_back(start);
     for (const FilePoint p : way) way_um += length_um(from, p), from = p;
+    const auto next = run != nullptr ? run->way_state : way_state_[layer_][std::size_t(path.extruder)];
+    const bool drives_otherwise = words_.drives_otherwise && way_um > 0;
     if (changes) {
+      if (drives_otherwise && path.travel_before_change > 0) out_.set(of_moving(recovered_.states[next]));
       drive_before_change(path);
       way.erase(way.begin(), way.begin() + std::ptrdiff_t(path.travel_before_change));
       change_tool(path.extruder);
     }
-    const auto next = run != nullptr ? run->way_state : way_state_[layer_][std::size_t(path.extruder)];
-    if (words_.drives_otherwise && way_um > 0) out_.set(of_moving(recovered_.states[next]));
+    if (drives_otherwise) out_.set(of_moving(recovered_.states[next]));
     const Extruder& e = config_.extruders[std::size_t(path.extruder)];
     const bool draws_back = way_um > e.retract_before_travel_mm * 1e3 - 1;
     if (draws_back && !(run != nullptr && goes_so_in_file(*run, way_um))) draw_back();
@@ -404,6 +407,20 @@ class Writing {
     }
     turned.insert(turned.end(), rest.begin(), rest.end());
     return turned;
+  }
+
+  /// Where a tool prints nothing of its own in the layer, fan and accelerations are those of the others.
+  ModalState state_of_wall(const RecoveredLayer& layer, ModalState state, int tool) const {
+    const auto prints = [](const RecoveredRun& run) { return !run.fixed && !run.roads.empty(); };
+    const auto is_own = [&](const RecoveredRun& run) { return prints(run) && run.tool == tool; };
+    const auto other = std::ranges::find_if(layer.runs, prints);
+    if (other != layer.runs.end() && std::ranges::none_of(layer.runs, is_own)) {
+      const ModalState& here = recovered_.states[other->roads.front().state];
+      ModalState shared = of_moving(here);
+      if (const auto fan = here.find("fan"); fan != here.end()) shared.insert(*fan);
+      for (auto& [key, text] : shared) state[key] = text;
+    }
+    return of_no_object(std::move(state));
   }
 
   static ModalState of_no_object(ModalState state) {

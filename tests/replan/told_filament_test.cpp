@@ -52,6 +52,17 @@ TEST(ToldFilament, ToolsThatPrintNothingMayBeLeftOut) {
             "\n; filament used [g] = 4.0, 0.0, 2.0\n");
 }
 
+TEST(ToldFilament, ToolsBeyondThoseThatPrintStayAtNothing) {
+  EXPECT_EQ(told("\n; filament used [g] = 4.0, 1.0, 0.0, 0.0\n; total filament used [g] = 5.0\n", {1, 1}, {1, 2}),
+            "\n; filament used [g] = 4.0, 2.0, 0.0, 0.0\n; total filament used [g] = 6.0\n");
+}
+
+TEST(ToldFilament, TheLastLineMayEndWithoutALineEnd) {
+  EXPECT_EQ(told("\n; filament used [g] = 4.0, 1.0", {1, 1}, {1, 2}), "\n; filament used [g] = 4.0, 2.0");
+  EXPECT_EQ(told("\n; filament cost = 1.5", {1, 1}, {1, 2}), "\n; filament cost = 1.5");
+  EXPECT_EQ(told("\n; filament used = 2.0mm", {1, 1}, {1, 2}), "\n; filament used = 2.0mm");
+}
+
 TEST(ToldFilament, AListOfAnotherLengthStaysAndSoDoesItsTotal) {
   for (const char* text : {"\n; filament used [g] = 5.0\n; total filament used [g] = 5.0\n",
                            "\n; filament used [g] =\n", "\n; filament used [g] = -\n", ";Filament used: 0m\n", ""})
