@@ -138,10 +138,9 @@ void PrintedRampart::require_reach() const {
       const Box<Vec2> walls_mm = bounds_mm(wall), room_mm = bounds_mm(room);
       throw Error(fmt::format(
           "no room for the rampart, the wall that keeps the colours apart: it needs X {:.1f} to {:.1f}, Y {:.1f} to "
-          "{:.1f} mm, all nozzles reach X {:.1f} to {:.1f}, Y {:.1f} to {:.1f} mm; move the part (--center), turn it "
-          "(--rotate, --azimuth), make it smaller (--scale), or go without: --rampart off",
+          "{:.1f} mm, all nozzles reach X {:.1f} to {:.1f}, Y {:.1f} to {:.1f} mm{}",
           walls_mm.min.x, walls_mm.max.x, walls_mm.min.y, walls_mm.max.y, room_mm.min.x, room_mm.max.x, room_mm.min.y,
-          room_mm.max.y));
+          room_mm.max.y, room_advice));
     }
 }
 

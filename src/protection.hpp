@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "base/progress.hpp"
@@ -25,6 +26,11 @@ struct Use {
   std::vector<int> extruders;
   std::vector<std::optional<int>> last_layer;  // by extruder
 };
+
+/// How the Error ends that tells of no room for the rampart.
+inline constexpr std::string_view room_advice =
+    "; move the part (--center), turn it (--rotate, --azimuth), make it smaller (--scale), or go without: --rampart "
+    "off";
 
 /// Conforming, vertical or off: what the print gets. Off for one extruder alone.
 RampartShape rampart_shape(const Config& config, const Use& use);

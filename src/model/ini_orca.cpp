@@ -99,8 +99,7 @@ struct OrcaValue {
   std::string_view orca, value;
   std::string_view ours, text;
 };
-constexpr std::array<OrcaValue, 6> values = {{
-    {"print_sequence", "by object", "complete_objects", "1"},
+constexpr std::array<OrcaValue, 5> values = {{
     {"wall_sequence", "outer wall/inner wall", "external_perimeters_first", "1"},
     {"wall_sequence", "inner-outer-inner wall", "wall_sequence", "inner-outer-inner wall"},
     {"wall_infill_order", "outer wall/inner wall/infill", "external_perimeters_first", "1"},

@@ -14,16 +14,14 @@ constexpr DialectWords superslicer = {.layer_begins = {";LAYER_CHANGE", ";BEFORE
                                       .own_type = ";TYPE:Skirt",
                                       .own_object = {},
                                       .elapsed = {},
-                                      .of_ways = {"; acceleration to travel", "; decel to extrusion", "; end travel"},
-                                      .drives_otherwise = true};
+                                      .of_ways = {"; acceleration to travel", "; decel to extrusion", "; end travel"}};
 
 constexpr DialectWords orcaslicer = {.layer_begins = {";LAYER_CHANGE", ";BEFORE_LAYER_CHANGE"},
                                      .header_ends = {";HEIGHT:", ";Z:"},
                                      .own_type = ";TYPE:Skirt",
                                      .own_object = {},
                                      .elapsed = {},
-                                     .tower = ";TYPE:Prime tower",
-                                     .drives_otherwise = true};
+                                     .tower = ";TYPE:Prime tower"};
 
 constexpr DialectWords bambustudio = {.layer_begins = {"; CHANGE_LAYER", {}},
                                       .header_ends = {"; LAYER_HEIGHT:", "; Z_HEIGHT:"},
@@ -34,8 +32,7 @@ constexpr DialectWords bambustudio = {.layer_begins = {"; CHANGE_LAYER", {}},
                                       .height = "; LAYER_HEIGHT: ",
                                       .wipe_begins = "; WIPE_START",
                                       .wipe_ends = "; WIPE_END",
-                                      .tower = "; FEATURE: Prime tower",
-                                      .drives_otherwise = true};
+                                      .tower = "; FEATURE: Prime tower"};
 
 constexpr DialectWords cura = {.layer_begins = {";LAYER:", {}},
                                .header_ends = {},

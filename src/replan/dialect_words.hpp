@@ -32,7 +32,6 @@ struct DialectWords {
   bool times_heaters = false;       // by how long a tool idles: replan/heaters.hpp
   bool lifts_at_change = false;     // also where it does not lift otherwise
   bool pushes_at_change = false;    // a new tool lowers and pushes part of its filament forward before it travels
-  bool drives_otherwise = false;    // ways have accelerations of their own, told before each
 };
 
 /// Nothing for dialects that are not re-planned. OrcaSlicer has two, one for each kind of printer.

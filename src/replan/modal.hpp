@@ -54,7 +54,8 @@ class StateLog {
   std::size_t size() const { return now_.size(); }  // settings
   std::size_t bytes() const { return bytes_; }      // of text, in all states
   std::uint32_t index();                            // of the state that holds now
-  std::vector<ModalState> all() &&;                 // in the order of their indices
+  const ModalState& now() const { return now_; }
+  std::vector<ModalState> all() &&;  // in the order of their indices
 
  private:
   ModalState now_;

@@ -34,7 +34,6 @@ struct RefusedOption {
 };
 constexpr RefusedOption refused_options[] = {
     {"spiral_vase", "vase mode is one road from bottom to top; there is nothing to put in order"},
-    {"complete_objects", "objects that are printed one after the other are not re-planned"},
     {"single_extruder_multi_material", "filament changes in one nozzle, so that no idle nozzle can ooze"},
     {"use_firmware_retraction", "the firmware draws filament back; switch it off in the slicer"},
     {"use_volumetric_e", "E in mm3 is not re-planned yet; switch it off in the slicer"},
@@ -309,7 +308,9 @@ ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recover
       rampart.emplace(around, use, config, options.threads);
     }
   } catch (const Error& fault) {
-    progress.warn(fmt::format("{}: {}; it is re-planned without a rampart", print.name, fault.what()));
+    std::string_view what = fault.what();
+    if (what.ends_with(room_advice)) what.remove_suffix(room_advice.size());
+    progress.warn(fmt::format("{}: {}; it is re-planned without a rampart", print.name, what));
     config.rampart = RampartShape::off;
     rampart.emplace(around, use, config, options.threads);
   }

@@ -127,6 +127,8 @@ class Recovery {
 
   void in_layers() {
     read_line();
+    if (raw_.starts_with(";WIPE_SCRIPT_BEGIN"))
+      refuse(at_, "nozzles are wiped between layers, which is not re-planned; switch off clean_between_layers in Cura");
     if (raw_.starts_with(words_.tower)) return tower();
     count_e();
     if (line_.letter == 0 && line_.word.empty() && line_.present == 0) return comment();
@@ -135,6 +137,10 @@ class Recovery {
     if (const auto tool = tool_taken(line_)) return change_to(*tool);
     if (line_.letter == 'M' && line_.number == 73 && line_.has('P')) {
       if (r_.progress_line.empty() && raw_.starts_with("M73 P")) r_.progress_line = raw_;
+      return;
+    }
+    if (line_.letter == 'M' && line_.number == 73 && line_.has('Q')) {
+      if (r_.silent_progress_line.empty() && raw_.starts_with("M73 Q")) r_.silent_progress_line = raw_;
       return;
     }
     if (r_.says_on_and_off && line_.letter == 'M' && (line_.number == 101 || line_.number == 103)) return;
@@ -227,6 +233,7 @@ class Recovery {
     if (is_spiral()) return lift_in_spiral();
     if (const auto fault = fault_of_g(line_, raw_)) refuse(at_, *fault);
     if (line_.number == 92) return;
+    if (line_.number == 10) return keep(true);  // a temperature
     if (line_.number == 2 || line_.number == 3) return lay_arc();
     const auto index = take_move();
     if (!index) return;  // a speed alone
@@ -277,6 +284,8 @@ class Recovery {
       way_.forward_after = way_.places.size();
     if (!across) return;
     way_.drive_to(move.to_mm, states_.index());
+    if (way_.places.size() == 1 && road_state_ && *road_state_ != way_.state)
+      r_.drives_otherwise = r_.drives_otherwise || of_moving(states_.now()) != road_moving_;
     if (const double rise = move.to_mm.z - from.z; rise > 0 && move.known_start) {
       rises_on_way_ = true;
       const double slope = rise / std::hypot(move.to_mm.x - from.x, move.to_mm.y - from.y);
@@ -385,6 +394,7 @@ class Recovery {
     gap_.clear();
     if (says_roles_behind_) states_.set(type_key, fmt::format(";TYPE:{}", role_name(move.role)));
     const std::uint32_t state = states_.index();
+    if (road_state_ != state) road_state_ = state, road_moving_ = of_moving(states_.now());
     run().roads.push_back({.to = file_point(move.to_mm),
                            .filament_e5 = to_e5(move.filament_mm),
                            .feed_mm_min = feed_,
@@ -522,6 +532,8 @@ class Recovery {
   GcodeLine line_;
 
   StateLog states_;
+  std::optional<std::uint32_t> road_state_;  // of the last road
+  ModalState road_moving_;
   int tool_ = 0, from_tool_ = 0;
   double feed_ = 0;
   FilamentBook book_{max_tools, false};

@@ -119,10 +119,12 @@ struct RecoveredPrint {
   std::int64_t end_count_e5 = 0;                  // of the last one
   std::int64_t end_drawn_back_e5 = 0;             // by a wipe after the last road
   double end_feed_mm_min = 0;
-  std::string progress_line;      // the first M73 P among the layers, which are told anew; empty: there are none
-  std::size_t elapsed_lines = 0;  // likewise, of the time so far
-  double change_lift_mm = 0;      // of a nozzle before another one takes over
-  double lift_slope = 0;          // mm a mm of way on which nozzles are lifted; 0: they are lifted on the spot
+  std::string progress_line;         // the first M73 P among the layers, which are told anew; empty: there are none
+  std::string silent_progress_line;  // likewise, M73 Q: of the printer's quiet mode
+  bool drives_otherwise = false;     // ways have accelerations of their own, told before each
+  std::size_t elapsed_lines = 0;     // likewise, of the time so far
+  double change_lift_mm = 0;         // of a nozzle before another one takes over
+  double lift_slope = 0;             // mm a mm of way on which nozzles are lifted; 0: they are lifted on the spot
 };
 
 /// Throws Error("file:line: ...") for what cannot be put in another order for sure; it says what to do.

@@ -23,6 +23,8 @@ std::optional<std::string> fault_of_g(const GcodeLine& line, std::string_view ra
       if (line.has('I') || line.has('J')) return std::nullopt;
       return "an arc without its centre (I J) is not re-planned; switch off arc fitting in the slicer";
     case 10:
+      if (line.has_value('P')) return std::nullopt;  // a temperature of RepRapFirmware's
+      [[fallthrough]];
     case 11:
       return "the firmware draws filament back; switch off use_firmware_retraction in the slicer";
     case 92:

@@ -54,9 +54,25 @@ void correct_config_estimates(std::string& text, double share) {
 
 }  // namespace
 
+namespace {
+
+/// Minutes of the printer's quiet mode for each usual one, as the file tells them first.
+double silent_share(std::string_view text) {
+  const auto first = [&](std::string_view line, std::string_view word) {
+    const std::size_t at = text.find(line), end = std::min(text.find('\n', at), text.size());
+    const std::size_t found = at == text.npos ? at : text.substr(0, end).find(word, at);
+    return found == text.npos ? std::nullopt : number<double>(trimmed(text.substr(found + 2, end - found - 2)));
+  };
+  const auto usual = first("M73 P", " R"), silent = first("M73 Q", " S");
+  return usual && silent && *usual > 0 && *silent > 0 ? *silent / *usual : 1;
+}
+
+}  // namespace
+
 std::string with_progress(const GcodePrint& after, const Timeline& time, double share) {
   const std::string_view elapsed = words_of(after)->elapsed;
   const std::string_view text = *after.text;
+  const double silent = silent_share(text);
   std::string result;
   result.reserve(text.size());
   double done_s = 0;
@@ -65,15 +81,19 @@ std::string with_progress(const GcodePrint& after, const Timeline& time, double 
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = text.substr(at, end - at);
     const bool tells_elapsed = !elapsed.empty() && line.starts_with(elapsed);
-    if (tells_elapsed || line.starts_with("M73 P"))
+    const bool is_silent = line.starts_with("M73 Q"), tells_rest = is_silent || line.starts_with("M73 P");
+    if (tells_elapsed || tells_rest)
       for (; move < after.moves.size() && after.moves[move].offset < at; ++move) done_s += time.duration_s[move];
     if (tells_elapsed) {
       result += fmt::format("{}{:.6f}", elapsed, done_s * share);
-    } else if (line.starts_with("M73 P")) {
+    } else if (tells_rest) {
       const double left_s = std::max(0., time.print_time_s - done_s);
       const bool ends = move == after.moves.size() || left_s < 1;
-      result += fmt::format("M73 P{}", ends ? 100 : std::min(99, int(100 * done_s / time.print_time_s)));
-      if (line.find(" R") != line.npos) result += fmt::format(" R{}", ends ? 0 : std::lround(left_s * share / 60));
+      const std::string_view rest = is_silent ? " S" : " R";
+      result += fmt::format("M73 {}{}", is_silent ? 'Q' : 'P',
+                            ends ? 100 : std::min(99, int(100 * done_s / time.print_time_s)));
+      if (line.find(rest) != line.npos)
+        result += fmt::format("{}{}", rest, ends ? 0 : std::lround(left_s * share * (is_silent ? silent : 1) / 60));
     } else {
       result += line;
     }

@@ -10,8 +10,8 @@
 
 namespace cleancolor {
 
-/// Lines "M73 P.. R.." and ";TIME_ELAPSED:.." of `after` anew: percent and, where they tell them, minutes and seconds
-/// as the print goes now. share: of the slicer's own estimate in ours.
+/// Lines "M73 P.. R..", "M73 Q.. S.." and ";TIME_ELAPSED:.." of `after` anew: percent and, where they tell them,
+/// minutes and seconds as the print goes now. share: of the slicer's own estimate in ours.
 std::string with_progress(const GcodePrint& after, const Timeline& time, double share);
 
 /// The estimates in head and end of the file, longer by that factor.

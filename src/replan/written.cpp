@@ -196,7 +196,8 @@ class Writing {
     last_ = nullptr;
     std::vector<char> is_written(source.runs.size(), 0);
     out_.header(source.header);
-    if (!recovered_.progress_line.empty()) out_.line(recovered_.progress_line);  // its numbers come later
+    for (const std::string& line : {recovered_.progress_line, recovered_.silent_progress_line})
+      if (!line.empty()) out_.line(line);  // its numbers come later
     begin_layer(source);
     for (std::size_t i = 0; i < planned.paths.size(); ++i) {
       const Path& path = planned.paths[i];
@@ -252,7 +253,7 @@ class Writing {
     way.push_back(start);
     for (const FilePoint p : way) way_um += length_um(from, p), from = p;
     const auto next = run != nullptr ? run->way_state : way_state_[layer_][std::size_t(path.extruder)];
-    const bool drives_otherwise = words_.drives_otherwise && way_um > 0;
+    const bool drives_otherwise = recovered_.drives_otherwise && way_um > 0;
     if (changes) {
       if (drives_otherwise && path.travel_before_change > 0) out_.set(of_moving(recovered_.states[next]));
       drive_before_change(path);
@@ -294,7 +295,7 @@ class Writing {
       change_tool(run.tool, run.spiral);
       draw_back_before(run);
     }
-    if (words_.drives_otherwise && !run.way.empty()) out_.set(of_moving(recovered_.states[run.way_state]));
+    if (recovered_.drives_otherwise && !run.way.empty()) out_.set(of_moving(recovered_.states[run.way_state]));
     const auto travel = [&](std::size_t i, FilePoint to) {
       run.way_z_um.empty() ? out_.travel(to) : out_.travel(to, run.way_z_um[std::min(i, run.way_z_um.size() - 1)]);
     };

