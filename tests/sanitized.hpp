@@ -23,11 +23,13 @@ constexpr int trials(int count) {
   return sanitized ? std::max(1, count / 8) : count;
 }
 
-/// The models of the paper that take seconds without them. Names as in file names or tests.
+/// The models that take seconds without them. Names as in file names or tests.
 inline bool is_large(std::string_view model) {
-  for (const std::string_view small : {"rose", "crystal", "4-cones", "4_cones", "four_cones"})
-    if (model.starts_with(small)) return false;
-  return true;
+  for (const std::string_view large :
+       {"crystal", "two-color-world", "two_color_world", "world", "dragon", "spot", "robot", "detachedmodel", "benchy",
+        "wagon", "heartgears", "cube-gears", "pyramid-properties"})
+    if (model.starts_with(large)) return true;
+  return false;
 }
 
 }  // namespace cleancolor::test

@@ -16,6 +16,7 @@ namespace cleancolor {
 struct DrivenWay {
   std::vector<FilePoint> places;  // the last is where the next road begins
   std::vector<std::int64_t> z_um;
+  bool rises = false;               // on the way, not on the spot
   std::vector<std::string> spiral;  // lines of a lift that goes round
   std::uint32_t state = 0;          // under which the way begins
 

@@ -38,8 +38,8 @@ struct ReplannedLayers {
 };
 
 /// The layers in printing order: Path::source is the run of the layer that a path is, -1 that of a rampart or refill.
-/// Without room for the rampart it is left out, with a warning; so is one around a column where there is but one.
-/// Same result for any number of threads.
+/// Without room for the rampart it is left out, with a warning; one around a column where there is but one is left out,
+/// too. Same result for any number of threads.
 ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recovered, const GcodePrint& print,
                                const AuditMachine& machine, Config config, const ReplanOptions& options,
                                const Progress& progress);

@@ -287,7 +287,7 @@ class Recovery {
     if (way_.places.size() == 1 && road_state_ && *road_state_ != way_.state)
       r_.drives_otherwise = r_.drives_otherwise || of_moving(states_.now()) != road_moving_;
     if (const double rise = move.to_mm.z - from.z; rise > 0 && move.known_start) {
-      rises_on_way_ = true;
+      way_.rises = true;
       const double slope = rise / std::hypot(move.to_mm.x - from.x, move.to_mm.y - from.y);
       r_.lift_slope = r_.lift_slope > 0 ? std::min(r_.lift_slope, slope) : slope;
     }
@@ -458,7 +458,7 @@ class Recovery {
                                      .roads = {},
                                      .notes = std::move(notes),
                                      .way = std::move(way_.places),
-                                     .way_z_um = rises_on_way_ ? std::move(way_.z_um) : std::vector<std::int64_t>{},
+                                     .way_z_um = way_.rises ? std::move(way_.z_um) : std::vector<std::int64_t>{},
                                      .spiral = std::move(way_.spiral),
                                      .way_state = way_.state,
                                      .leaving = {},
@@ -542,7 +542,6 @@ class Recovery {
   // Since the last road:
   std::vector<Note> gap_;  // lines to be kept
   DrivenWay way_;
-  bool rises_on_way_ = false;
   std::size_t behind_spiral_ = 0;                  // move
   std::size_t mark_in_gap_ = 0, tool_in_gap_ = 0;  // where the layer begins and the tool changes
   bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false;

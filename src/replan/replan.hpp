@@ -5,7 +5,8 @@
 //   print, printer  ->  text
 //
 // The paths are found again (replan/recovered.hpp), planned as our own are (replan/planning.hpp), and written back in
-// the dialect of the file (replan/written.hpp); what comes out is read again and compared (replan/same_print.hpp).
+// the dialect of the file (replan/written.hpp); what comes out is read again and compared (replan/same_print.hpp). Of
+// several such attempts (replan/attempts.hpp) the one that is worth most is handed out (replan/worth.hpp).
 #pragma once
 
 #include <optional>

@@ -65,9 +65,6 @@ TEST(OrcaNames, WhatHasNoCounterpartIsLeftOut) {
   }));
 }
 
-TEST(OrcaNames, OneObjectAfterTheOtherIsSaidAsPrusaSlicerSaysIt) {
-}
-
 TEST(SuperSlicerNames, SharesOfTheNozzleBecomeLengths) {
   const auto entries = from_superslicer({{"nozzle_diameter", "0.4,0.4", 1},
                                          {"extrusion_width", "105%", 2},

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "replay.hpp"
+#include "sanitized.hpp"
 #include "slicing.hpp"
 
 namespace cleancolor {
@@ -76,6 +77,7 @@ void expect_filament_as_said(const Printed& printed, const Sliced& result) {
 
 TEST_P(Corpus, SlicesWithinBedAndModelOrIsRefusedAsListed) {
   const Model& model = GetParam();
+  SKIP_LARGE_WHERE_SANITIZED(model.name);
   const TestFolder folder;
   const Config config = config_for(model);
   const SliceRequest request = request_for(model, config, folder.path("out.gcode"));

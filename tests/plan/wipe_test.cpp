@@ -182,7 +182,7 @@ TEST(Wipe, OfRandomLayersNeverSpoilsMoreNorCrossesMore) {
     };
     EXPECT_LE(spoilt(after), spoilt(before) + 0.01);
   }
-  EXPECT_GT(changed, trials(8));
+  if (!sanitized) EXPECT_GT(changed, 8);
 }
 
 TEST(Wipe, IsPartOfThePlanUnlessSwitchedOff) {
