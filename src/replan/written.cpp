@@ -402,7 +402,10 @@ class Writing {
       };
       double length = 0;
       for (const Piece& p : rest) length += length_um(p);
-      const bool alike = !rest.empty() && length > 2 * gap_um && kind(last, type_key) == kind(rest.back(), type_key);
+      bool alike = !rest.empty() && length > 2 * gap_um;  // all that the gap takes the plastic of
+      double back_um = 0;
+      for (std::size_t i = rest.size(); i-- > 0 && back_um < gap_um; back_um += length_um(rest[i]))
+        alike = alike && kind(last, type_key) == kind(rest[i], type_key);
       if (alike) seam.filament_e5 = cut_end(rest, gap_um);
       turned.push_back(seam);
     }
