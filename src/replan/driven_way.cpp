@@ -6,6 +6,10 @@
 namespace cleancolor {
 
 void DrivenWay::drive_to(Vec3 to_mm, std::uint32_t under_state) {
+  if (again_from == places.size()) {  // it drives on drawn back: what came before was nothing
+    back_after = std::exchange(again_from, ~std::size_t{0});
+    forward_after.reset();
+  }
   places.push_back(file_point(to_mm));
   z_um.push_back(um_of(to_mm.z));
   if (places.size() == 1) state = under_state;
@@ -22,6 +26,7 @@ std::vector<FilePoint> DrivenWay::leave(std::size_t count) {
   places.erase(places.begin(), places.begin() + gone);
   z_um.erase(z_um.begin(), z_um.begin() + gone);
   back_after -= std::min(back_after, left.size());
+  again_after -= std::min(again_after, left.size());
   if (forward_after) *forward_after -= std::min(*forward_after, left.size());
   return left;
 }

@@ -299,14 +299,20 @@ class Writing {
     const auto travel = [&](std::size_t i, FilePoint to) {
       run.way_z_um.empty() ? out_.travel(to) : out_.travel(to, run.way_z_um[std::min(i, run.way_z_um.size() - 1)]);
     };
+    const auto draw_back_again = [&] {
+      out_.draw_back(run.again_e5);
+      out_.push_forward();
+    };
     for (std::size_t i = 0; i < run.way.size(); ++i) {
       if (run.drawn_back && i == run.back_after) draw_back_before(run);
       if (i == run.forward_after) push_forward_on_the_way();
+      if (run.again_e5 > 0 && i == run.again_after) draw_back_again();
       travel(i, run.way[i]);
     }
     if (run.drawn_back && run.back_after >= run.way.size()) draw_back_before(run);
     if (run.forward_after == run.way.size()) push_forward_on_the_way();
     travel(run.way.size(), start);
+    if (run.again_e5 > 0 && run.again_after >= run.way.size()) draw_back_again();
   }
 
   void push_forward() {
