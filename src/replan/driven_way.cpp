@@ -7,7 +7,8 @@ namespace cleancolor {
 
 void DrivenWay::drive_to(Vec3 to_mm, std::uint32_t under_state) {
   if (again_from == places.size()) {  // it drives on drawn back: what came before was nothing
-    back_after = std::exchange(again_from, ~std::size_t{0});
+    back_after = *again_from;
+    again_from.reset();
     forward_after.reset();
   }
   places.push_back(file_point(to_mm));
@@ -27,6 +28,7 @@ std::vector<FilePoint> DrivenWay::leave(std::size_t count) {
   z_um.erase(z_um.begin(), z_um.begin() + gone);
   back_after -= std::min(back_after, left.size());
   again_after -= std::min(again_after, left.size());
+  if (again_from) *again_from -= std::min(*again_from, left.size());
   if (forward_after) *forward_after -= std::min(*forward_after, left.size());
   return left;
 }

@@ -24,7 +24,9 @@ struct DrivenWay {
   bool drawn_back = false;
   std::size_t back_after = 0;
   std::optional<std::size_t> rises_after, forward_after;
-  std::size_t again_from = ~std::size_t{0}, again_after = 0;
+  bool pushes_at_change = false;
+  std::optional<std::size_t> again_from;
+  std::size_t again_after = 0;
   std::int64_t again_e5 = 0;  // drawn back once more after it was pushed forward
 
   double rise_mm = 0;   // above the layer

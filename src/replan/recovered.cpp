@@ -276,6 +276,7 @@ class Recovery {
       const std::int64_t beyond = to_e5(move.filament_mm) - book_.back_of(move.feeds);
       if (beyond > filament_rounding_e5) refuse(at_, "plastic is pushed out on the spot, more than was drawn back");
     }
+    if (move.filament_mm > 0 && has_tool_ && way_.places.empty()) way_.pushes_at_change = true;
     if (move.filament_mm < 0 && way_.forward_after) way_.again_from = way_.places.size();
     if (move.filament_mm > 0 && way_.again_from == way_.places.size())
       way_.again_e5 = to_e5(move.filament_mm), way_.again_after = way_.places.size();
@@ -469,6 +470,7 @@ class Recovery {
                                      .drawn_back = way_.drawn_back || has_tool_,
                                      .back_after = has_tool_ ? 0 : way_.back_after,
                                      .forward_after = way_.forward_after.value_or(~std::size_t{0}),
+                                     .pushes_at_change = way_.pushes_at_change,
                                      .again_e5 = way_.again_e5,
                                      .again_after = way_.again_after});
     if (!run().way.empty()) run().way.pop_back();  // its start

@@ -88,6 +88,7 @@ struct RecoveredRun {
   bool drawn_back = false;                      // likewise, filament,
   std::size_t back_after = 0;                   // where so many places of the way were passed,
   std::size_t forward_after = ~std::size_t{0};  // and pushed forward again after so many; else where it ends
+  bool pushes_at_change = false;                // the new tool, before it drives
   std::int64_t again_e5 = 0;                    // drawn back, and pushed forward, once more on the spot
   std::size_t again_after = 0;                  // so many places of the way
 };

@@ -166,11 +166,11 @@ class Writing {
     if (lift_mm > 0) out_.lift(lift_mm);
   }
 
-  void change_tool(int tool, std::span<const std::string> spiral = {}) {
+  void change_tool(int tool, std::span<const std::string> spiral = {}, bool pushes = true) {
     draw_back_for_change(spiral.empty());
     out_.rise(spiral);
     out_.change_tool(tool);
-    if (!words_.pushes_at_change) return;
+    if (!words_.pushes_at_change || !pushes) return;
     out_.push_forward(std::llround(extruder().retract_length_mm * 1e5));
     out_.lower();
   }
@@ -292,7 +292,7 @@ class Writing {
 
   void go_as_in_file(const RecoveredRun& run, FilePoint start) {
     if (run.tool != out_.tool()) {
-      change_tool(run.tool, run.spiral);
+      change_tool(run.tool, run.spiral, run.pushes_at_change);
       draw_back_before(run);
     }
     if (recovered_.drives_otherwise && !run.way.empty()) out_.set(of_moving(recovered_.states[run.way_state]));
