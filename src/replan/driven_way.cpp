@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "replan/refusals.hpp"
+
 namespace cleancolor {
 
 void DrivenWay::drive_to(Vec3 to_mm, std::uint32_t under_state) {
@@ -31,6 +33,27 @@ std::vector<FilePoint> DrivenWay::leave(std::size_t count) {
   if (again_from) *again_from -= std::min(*again_from, left.size());
   if (forward_after) *forward_after -= std::min(*forward_after, left.size());
   return left;
+}
+
+RecoveredRun DrivenWay::leads_to(Vec3 begin_mm) {
+  RecoveredRun run{.from = file_point(begin_mm),
+                   .roads = {},
+                   .notes = {},
+                   .way = std::move(places),
+                   .way_z_um = rises ? std::move(z_um) : std::vector<std::int64_t>{},
+                   .spiral = std::move(spiral),
+                   .way_state = state,
+                   .leaving = {},
+                   .lifted = top_z_mm > begin_mm.z + same_height_mm,
+                   .drawn_back = drawn_back,
+                   .back_after = back_after,
+                   .forward_after = forward_after.value_or(~std::size_t{0}),
+                   .pushes_at_change = pushes_at_change,
+                   .again_e5 = again_e5,
+                   .again_after = again_after};
+  if (!run.way.empty()) run.way.pop_back();  // its start
+  *this = {.state = state};
+  return run;
 }
 
 FilePoint DrivenWay::take_last() {

@@ -38,6 +38,9 @@ struct DrivenWay {
   /// The first places, which are no way to what comes.
   std::vector<FilePoint> leave(std::size_t count);
 
+  /// A run that begins there, with the way to it; then there is no way any more.
+  RecoveredRun leads_to(Vec3 begin_mm);
+
   /// The last place.  Requires: there is one.
   FilePoint take_last();
 };

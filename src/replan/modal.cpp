@@ -114,6 +114,13 @@ ModalState of_moving(const ModalState& state) {
   return moving;
 }
 
+ModalState of_no_object(ModalState state) {
+  for (auto& [key, text] : state)
+    if (key.starts_with(label_prefix)) text.clear();
+  state.erase(std::string(object_id_key));
+  return state;
+}
+
 void take(ModalState& state, const ModalLine& what, std::string_view text) {
   state[what.key] = what.ends ? std::string() : std::string(text);
 }

@@ -38,6 +38,9 @@ std::optional<ModalLine> modal_line(const GcodeLine& line);
 /// What of it says how fast the carriage may become faster and turn.
 ModalState of_moving(const ModalState& state);
 
+/// The same outside of all objects.
+ModalState of_no_object(ModalState state);
+
 /// Takes the line into the state.
 void take(ModalState& state, const ModalLine& what, std::string_view text);
 

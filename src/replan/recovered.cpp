@@ -457,24 +457,11 @@ class Recovery {
     } else {
       for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
     }
-    r_.layers.back().runs.push_back({.tool = tool_,
-                                     .from = file_point(from),
-                                     .roads = {},
-                                     .notes = std::move(notes),
-                                     .way = std::move(way_.places),
-                                     .way_z_um = way_.rises ? std::move(way_.z_um) : std::vector<std::int64_t>{},
-                                     .spiral = std::move(way_.spiral),
-                                     .way_state = way_.state,
-                                     .leaving = {},
-                                     .lifted = way_.top_z_mm > from.z + same_height_mm,
-                                     .drawn_back = way_.drawn_back || has_tool_,
-                                     .back_after = has_tool_ ? 0 : way_.back_after,
-                                     .forward_after = way_.forward_after.value_or(~std::size_t{0}),
-                                     .pushes_at_change = way_.pushes_at_change,
-                                     .again_e5 = way_.again_e5,
-                                     .again_after = way_.again_after});
-    if (!run().way.empty()) run().way.pop_back();  // its start
-    way_ = {.state = way_.state};
+    RecoveredRun begun = way_.leads_to(from);
+    begun.tool = tool_;
+    begun.notes = std::move(notes);
+    if (has_tool_) begun.drawn_back = true, begun.back_after = 0;
+    r_.layers.back().runs.push_back(std::move(begun));
     gap_.clear();
     breaks_ = has_layer_mark_ = has_tool_ = left_header_ = travelled_after_tool_ = false;
     moved_among_notes_ = 0;

@@ -433,13 +433,6 @@ class Writing {
     return of_no_object(std::move(state));
   }
 
-  static ModalState of_no_object(ModalState state) {
-    for (auto& [key, text] : state)
-      if (key.starts_with("0 ")) text.clear();
-    state.erase(std::string(object_id_key));
-    return state;
-  }
-
   /// Walls of the rampart, their brim, refills; printed under a state.
   void own_path(const Path& path, ModalState state) {
     const auto tool = std::size_t(path.extruder);
