@@ -178,6 +178,14 @@ def replanned(program, gcode, variant, *added):
     return output, seconds, ""
 
 
+def stays_as_it_is(program, gcode, variant):
+    """Whether re-planning changes nothing of what was re-planned before."""
+    again = replanned(program, gcode, variant, "--keep-going")[0]
+    same = again.read_bytes() == gcode.read_bytes()
+    again.unlink()
+    return same
+
+
 def judged_row(program, name, slicer, variant):
     """One row of the table, and what does not hold of it."""
     before = sliced(program, name, slicer, variant)
@@ -186,6 +194,8 @@ def judged_row(program, name, slicer, variant):
     if not after:
         return f"| {title} | left as it is: {reason} | | | |", [f"{title}: {reason}"]
     faults = same_print(before, after)
+    if not stays_as_it_is(program, after, variant):
+        faults.append("re-planned again it is another file")
     old, new = (audited_once(program, file, variant, sensitivity=False) for file in (before, after))
     pairs = {key: (figure(old, key), figure(new, key)) for key in ("smear_volume", "hole_volume")}
     minutes = [j["print"]["time_s"] / 60 for j in (old, new)]

@@ -8,31 +8,35 @@
 namespace cleancolor {
 
 void DrivenWay::drive_to(Vec3 to_mm, std::uint32_t under_state) {
-  if (again_from == places.size()) {  // it drives on drawn back: what came before was nothing
-    back_after = *again_from;
-    again_from.reset();
-    forward_after.reset();
-  }
+  const auto pushes = [](const FilamentMove& move) { return move.by_e5 > 0; };
+  const bool drives_on_drawn_back =
+      !filament.empty() && filament.back().after == places.size() && !pushes(filament.back());
+  if (drives_on_drawn_back && std::ranges::any_of(filament, pushes)) back_after = places.size();  // before was nothing
   places.push_back(file_point(to_mm));
   z_um.push_back(um_of(to_mm.z));
   if (places.size() == 1) state = under_state;
 }
 
-void DrivenWay::draw_back() {
+void DrivenWay::move_filament(std::int64_t by_e5) {
+  filament.push_back({places.size(), by_e5});
+  if (!rises_after) fed_low = filament.size();
+  if (by_e5 > 0) return;
   if (!drawn_back) back_after = places.size();
   drawn_back = true;
 }
 
-std::vector<FilePoint> DrivenWay::leave(std::size_t count) {
+void DrivenWay::leave(std::size_t count, LeftWay& left) {
+  const auto stays = std::ranges::find_if(filament, [&](const FilamentMove& move) { return move.after > count; });
+  for (auto move = filament.begin(); move != stays; ++move)
+    left.filament.push_back({left.places.size() + move->after, move->by_e5});
+  fed_low -= std::min(fed_low, std::size_t(stays - filament.begin()));
+  filament.erase(filament.begin(), stays);
+  for (FilamentMove& move : filament) move.after -= count;
   const auto gone = std::ptrdiff_t(std::min(count, places.size()));
-  std::vector<FilePoint> left(places.begin(), places.begin() + gone);
+  left.places.insert(left.places.end(), places.begin(), places.begin() + gone);
   places.erase(places.begin(), places.begin() + gone);
   z_um.erase(z_um.begin(), z_um.begin() + gone);
-  back_after -= std::min(back_after, left.size());
-  again_after -= std::min(again_after, left.size());
-  if (again_from) *again_from -= std::min(*again_from, left.size());
-  if (forward_after) *forward_after -= std::min(*forward_after, left.size());
-  return left;
+  back_after -= std::min(back_after, std::size_t(gone));
 }
 
 RecoveredRun DrivenWay::leads_to(Vec3 begin_mm) {
@@ -40,19 +44,17 @@ RecoveredRun DrivenWay::leads_to(Vec3 begin_mm) {
                    .roads = {},
                    .notes = {},
                    .way = std::move(places),
+                   .way_filament = std::move(filament),
                    .way_z_um = rises ? std::move(z_um) : std::vector<std::int64_t>{},
                    .spiral = std::move(spiral),
                    .way_state = state,
-                   .leaving = {},
                    .lifted = top_z_mm > begin_mm.z + same_height_mm,
                    .drawn_back = drawn_back,
-                   .back_after = back_after,
-                   .forward_after = forward_after.value_or(~std::size_t{0}),
-                   .pushes_at_change = pushes_at_change,
-                   .again_e5 = again_e5,
-                   .again_after = again_after};
+                   .back_after = back_after};
   if (!run.way.empty()) run.way.pop_back();  // its start
-  *this = {.state = state};
+  const std::uint32_t under = state;
+  *this = {};
+  state = under;
   return run;
 }
 

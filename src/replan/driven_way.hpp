@@ -20,23 +20,20 @@ struct DrivenWay {
   std::vector<std::string> spiral;  // lines of a lift that goes round
   std::uint32_t state = 0;          // under which the way begins
 
-  // After so many places:
+  std::vector<FilamentMove> filament;
   bool drawn_back = false;
-  std::size_t back_after = 0;
-  std::optional<std::size_t> rises_after, forward_after;
-  bool pushes_at_change = false;
-  std::optional<std::size_t> again_from;
-  std::size_t again_after = 0;
-  std::int64_t again_e5 = 0;  // drawn back once more after it was pushed forward
+  std::size_t back_after = 0;  // so many places
+  std::optional<std::size_t> rises_after;
+  std::size_t fed_low = 0;  // of filament, moved before it rises
 
   double rise_mm = 0;   // above the layer
   double top_z_mm = 0;  // of the nozzle
 
   void drive_to(Vec3 to_mm, std::uint32_t under_state);
-  void draw_back();
+  void move_filament(std::int64_t by_e5);
 
-  /// The first places, which are no way to what comes.
-  std::vector<FilePoint> leave(std::size_t count);
+  /// The first places, which are no way to what comes, with what is done there.
+  void leave(std::size_t count, LeftWay& left);
 
   /// A run that begins there, with the way to it; then there is no way any more.
   RecoveredRun leads_to(Vec3 begin_mm);

@@ -204,19 +204,23 @@ void Emitter::draw_back(std::int64_t to_e5) {
 }
 
 void Emitter::push_forward(std::int64_t to_e5) {
-  if (drawn_back_e5() <= to_e5 + negligible_e5) return;
+  if (drawn_back_e5() > to_e5 + negligible_e5) feed(drawn_back_e5() - to_e5);
+}
+
+void Emitter::feed(std::int64_t by_e5) {
+  if (by_e5 <= 0) return draw_back(drawn_back_e5() - by_e5);
   const Extruder& e = extruder();
   if (recovered_.says_on_and_off) line("M101");
   text_ += "G1";
-  put_e(drawn_back_e5() - to_e5);
+  put_e(by_e5);
   put_feed(60 * (e.deretract_speed_mm_s > 0 ? e.deretract_speed_mm_s : e.retract_speed_mm_s));
   end_line();
-  back_e5() = to_e5;
+  back_e5() = std::max<std::int64_t>(0, drawn_back_e5() - by_e5);
 }
 
 void Emitter::road(FilePoint to, std::int64_t filament_e5, double feed_mm_min, const std::optional<RoadArc>& arc) {
   assert(known_ && drawn_back_e5() <= negligible_e5 && lift_um_ == 0);
-  if (to == at_) return;
+  if (to == at_ && filament_e5 == 0) return;
   text_ += !arc ? "G1" : arc->clockwise ? "G2" : "G3";
   if (arc || to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);
   if (arc || to.y_um != at_.y_um) put<3>(text_, 'Y', to.y_um);
@@ -227,15 +231,19 @@ void Emitter::road(FilePoint to, std::int64_t filament_e5, double feed_mm_min, c
   at_ = to;
 }
 
-void Emitter::wipe(FilePoint to, std::int64_t filament_e5, double feed_mm_min) {
-  text_ += "G1";
-  if (to.x_um != at_.x_um) put<3>(text_, 'X', to.x_um);
-  if (to.y_um != at_.y_um) put<3>(text_, 'Y', to.y_um);
-  put_e(-filament_e5);
-  put_feed(feed_mm_min);
-  end_line();
-  back_e5() += filament_e5;
-  at_ = to;
+void Emitter::wipe(std::span<const WipeMove> moves) {
+  line(words_.wipe_begins);
+  for (const WipeMove& move : moves) {
+    text_ += "G1";
+    if (move.to.x_um != at_.x_um) put<3>(text_, 'X', move.to.x_um);
+    if (move.to.y_um != at_.y_um) put<3>(text_, 'Y', move.to.y_um);
+    put_e(-move.filament_e5);
+    put_feed(move.feed_mm_min);
+    end_line();
+    back_e5() += move.filament_e5;
+    at_ = move.to;
+  }
+  line(words_.wipe_ends);
 }
 
 void Emitter::change_tool(int tool) {

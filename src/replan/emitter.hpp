@@ -50,6 +50,8 @@ class Emitter {
   void lower();
   void draw_back(std::int64_t to_e5);         // by so much in all
   void push_forward(std::int64_t to_e5 = 0);  // until so much is still drawn back
+  void feed(std::int64_t by_e5);              // < 0: drawn back
+  void take_drawn_back(std::int64_t e5) { back_e5() = e5; }
   void road(FilePoint to, std::int64_t filament_e5, double feed_mm_min, const std::optional<RoadArc>& arc = {});
 
   /// The lines of the file; afterwards the place is told anew.
@@ -59,7 +61,7 @@ class Emitter {
   void fixed(const FixedLines& lines);
 
   /// Drawing back on the way.
-  void wipe(FilePoint to, std::int64_t filament_e5, double feed_mm_min);
+  void wipe(std::span<const WipeMove> moves);
   std::int64_t drawn_back_e5() const { return drawn_back_e5_[std::size_t(tool_)]; }
 
   /// E and speed as the rest of the file takes them for given.

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/error.hpp"
@@ -15,6 +16,7 @@
 #include "replan/driven_way.hpp"
 #include "replan/filament_book.hpp"
 #include "replan/file_parts.hpp"
+#include "replan/gap.hpp"
 #include "replan/pieces.hpp"
 #include "replan/refusals.hpp"
 
@@ -158,14 +160,15 @@ class Recovery {
     if (std::ranges::find(words_.of_ways, raw_) != words_.of_ways.end()) return;
     if (begins_with_one_of(raw_, words_.layer_begins)) {
       const bool may_follow = !words_.layer_begins[1].empty() && !raw_.starts_with(words_.layer_begins[1]);
-      if (has_layer_mark_ && !may_follow) refuse(at_, "a layer without roads");
-      if (!has_layer_mark_) mark_layer();
-      gap_.push_back({raw_, at_, false});
+      if (gap_.has_layer() && !may_follow) refuse(at_, "a layer without roads");
+      if (!gap_.has_layer()) mark_layer();
+      gap_.add({raw_, at_, false});
       return;
     }
     if (const auto what = modal_line(line_)) {
       take_state(*what);
-      if (has_layer_mark_ && !has_tool_ && !left_header_ && what->key == height_key) gap_.push_back({raw_, at_, false});
+      if (gap_.has_layer() && !gap_.has_tool() && !left_header_ && what->key == height_key)
+        gap_.add({raw_, at_, false});
       return;
     }
     keep(false);
@@ -175,23 +178,21 @@ class Recovery {
   void keep(bool is_command) {
     if (travelled_after_tool_)
       refuse(at_, "the carriage is moved by the code of this tool change; it cannot be re-planned");
-    gap_.push_back({raw_, at_, is_command});
+    gap_.add({raw_, at_, is_command});
   }
 
   /// What was driven since the last road is no way to the next.
   void leave_run(std::size_t places) {
-    const std::vector<FilePoint> left = way_.leave(places);
-    if (!r_.layers.empty() && !r_.layers.back().runs.empty())
-      run().leaving.insert(run().leaving.end(), left.begin(), left.end());
+    LeftWay nothing;
+    way_.leave(places, gap_.has_layer() ? left_in_layer_ : has_run() ? run().leaving : nothing);
   }
   void leave_run() { leave_run(way_.places.size()); }
 
   void mark_layer() {
-    if (has_tool_) refuse(at_, "a layer begins after a tool change without a road between them");
+    if (gap_.has_tool()) refuse(at_, "a layer begins after a tool change without a road between them");
     leave_run(words_.rises_before_layer ? way_.rises_after.value_or(way_.places.size()) : way_.places.size());
-    has_layer_mark_ = true;
+    gap_.begin_layer();
     left_header_ = false;
-    mark_in_gap_ = gap_.size();
     breaks_ = true;
   }
 
@@ -201,8 +202,8 @@ class Recovery {
     const bool asks = line_.letter == 'M' && line_.number == 105;  // how hot it is
     const bool heats = line_.letter == 'M' && (line_.number == 104 || line_.number == 109);
     if (words_.times_heaters && (asks || (heats && is_timed(line_.value_or('T', tool_))))) return;
-    if (words_.times_heaters && has_tool_ && line_.letter == 'M' && line_.number == 116) return keep(true);
-    if (const auto fault = fault_of_command(line_, raw_, has_tool_ || print_.tools <= 1)) refuse(at_, *fault);
+    if (words_.times_heaters && gap_.has_tool() && line_.letter == 'M' && line_.number == 116) return keep(true);
+    if (const auto fault = fault_of_command(line_, raw_, gap_.has_tool() || print_.tools <= 1)) refuse(at_, *fault);
     keep(true);
   }
 
@@ -213,19 +214,19 @@ class Recovery {
 
   void change_to(int tool) {
     known_tool(tool);
-    if (has_tool_) refuse(at_, "two tool changes without a road between them");
+    if (gap_.has_tool()) refuse(at_, "two tool changes without a road between them");
     if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
       refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
     if (stands_aside_ && !way_.places.empty()) stand_ = way_.take_last();
+    fed_low_ = way_.fed_low;
     leave_run();
-    has_tool_ = true;
+    gap_.begin_tool();
     breaks_ = true;
-    tool_in_gap_ = gap_.size();
     from_tool_ = tool_;
     tool_ = tool;
-    if (words_.lifts_at_change && !has_layer_mark_ && !r_.layers.empty())
+    if (words_.lifts_at_change && !gap_.has_layer() && !r_.layers.empty())
       r_.change_lift_mm = std::max(r_.change_lift_mm, way_.rise_mm);
-    gap_.push_back({raw_, at_, false});
+    gap_.add({raw_, at_, false});
   }
 
   void command_g() {
@@ -260,32 +261,28 @@ class Recovery {
   void go(const GcodeMove& move, Vec3 from) {
     const bool across = from.x != move.to_mm.x || from.y != move.to_mm.y || (!move.known_start && move.names_xy);
     if (!breaks_ && move.names_xy && !across && move.filament_mm > 0) {  // a road too short to be told
-      run().roads.back().filament_e5 += to_e5(move.filament_mm);
+      RunRoad& road = run().roads.back();
+      road.filament_e5 += to_e5(move.filament_mm);
+      road.at_end_e5 += to_e5(move.filament_mm);
       return;
     }
     breaks_ = true;
     way_.top_z_mm = std::max(way_.top_z_mm, move.to_mm.z);
-    if (across && has_tool_) travelled_after_tool_ = true;
+    if (across && gap_.has_tool()) travelled_after_tool_ = true;
     if (move.filament_mm < 0 && across) return wipe(move);
     if (move.filament_mm > 0 && across) refuse(at_, "filament is pushed on the way");
-    if (across && !has_tool_ && !gap_.empty()) ++moved_among_notes_;
-    if (has_layer_mark_) left_header_ = left_header_ || across;
+    if (across && !gap_.has_tool() && !gap_.all().empty()) ++moved_among_notes_;
+    if (gap_.has_layer()) left_header_ = left_header_ || across;
     if (move.to_mm.z != from.z && !way_.rises_after) way_.rises_after = way_.places.size();
     if (!r_.layers.empty()) way_.rise_mm = std::max(way_.rise_mm, move.to_mm.z - r_.layers.back().z_mm);
     if (move.filament_mm > 0) {
       const std::int64_t beyond = to_e5(move.filament_mm) - book_.back_of(move.feeds);
       if (beyond > filament_rounding_e5) refuse(at_, "plastic is pushed out on the spot, more than was drawn back");
     }
-    if (move.filament_mm > 0 && has_tool_ && way_.places.empty()) way_.pushes_at_change = true;
-    if (move.filament_mm < 0 && way_.forward_after) way_.again_from = way_.places.size();
-    if (move.filament_mm > 0 && way_.again_from == way_.places.size())
-      way_.again_e5 = to_e5(move.filament_mm), way_.again_after = way_.places.size();
-    if (move.filament_mm < 0) way_.draw_back();
+    if (move.filament_mm != 0) way_.move_filament(to_e5(move.filament_mm));
     if (line_.has('A') || line_.has('B') || move.feeds != move.tool)
       refuse(at_, "filament of another tool than the one in use is moved");
     book_.move(move);
-    if (move.filament_mm > 0 && !way_.forward_after && book_.back_of(move.feeds) <= filament_rounding_e5)
-      way_.forward_after = way_.places.size();
     if (!across) return;
     way_.drive_to(move.to_mm, states_.index());
     if (way_.places.size() == 1 && road_state_ && *road_state_ != way_.state)
@@ -299,11 +296,12 @@ class Recovery {
 
   /// Drawing back on the way, over what was just printed.
   void wipe(const GcodeMove& move) {
-    const bool follows = !has_tool_ && !r_.layers.empty() && !r_.layers.back().runs.empty() && !run().fixed;
+    const bool follows = !gap_.has_tool() && has_run() && !run().fixed;
     if (!follows || move.feeds != move.tool) refuse(at_, "filament is drawn back on the way, but not after a road");
     if (run().wipe.empty()) {
       run().wipe_from = std::exchange(way_.places, {});
       way_.z_um.clear();
+      way_.filament.clear();
       const std::int64_t back = book_.back_of(move.feeds);
       run().back_before_wipe_e5 = back > filament_rounding_e5 ? back : 0;
     } else if (!way_.places.empty()) {
@@ -327,7 +325,7 @@ class Recovery {
     if (!r_.relative_e) refuse(at_, "a wipe tower with absolute E is not re-planned; switch on relative E");
     std::size_t last = 0, i = move_;
     while (i < print_.moves.size() && print_.moves[i].offset < at_) ++i;
-    if (i == 0 || has_tool_) refuse(at_, "a wipe tower that begins with a tool change is not re-planned");
+    if (i == 0 || gap_.has_tool()) refuse(at_, "a wipe tower that begins with a tool change is not re-planned");
     const Vec3 from = print_.moves[i - 1].to_mm;
     for (i = next_plastic(i); i < print_.moves.size(); ++i) {
       if (!lays_plastic(print_, i)) continue;
@@ -391,11 +389,11 @@ class Recovery {
     const bool differ = is_auxiliary(before) != is_auxiliary(move.role);
     if (breaks_ || differ || (before == Role::ironing) != (move.role == Role::ironing)) close_gap(from);
     if (r_.layers.empty()) refuse(at_, "a road before the first layer");
-    for (const Note& note : gap_) {
-      if (note.is_command) refuse(note.offset, "a command in the middle of a road: it cannot be moved");
-      run().notes.emplace_back(note.text);
+    for (const GapLine& line : gap_.all()) {
+      if (line.is_command) refuse(line.offset, "a command in the middle of a road: it cannot be moved");
+      run().notes.emplace_back(line.text);
     }
-    gap_.clear();
+    gap_ = {};
     if (says_roles_behind_) states_.set(type_key, fmt::format(";TYPE:{}", role_name(move.role)));
     const std::uint32_t state = states_.index();
     if (road_state_ != state) road_state_ = state, road_moving_ = of_moving(states_.now());
@@ -414,57 +412,46 @@ class Recovery {
                               double(back) * 1e-5));
   }
 
+  bool has_run() const { return !r_.layers.empty() && !r_.layers.back().runs.empty(); }
   RecoveredRun& run() { return r_.layers.back().runs.back(); }
 
   /// What lies between two runs: ends of what was printed, a new layer, another tool, the way.
   void close_gap(Vec3 from) {
-    std::size_t header_begin = has_layer_mark_ ? mark_in_gap_ : 0;
-    const std::size_t tool_at = has_tool_ ? tool_in_gap_ : gap_.size();
-    std::vector<std::string> notes;
-    if (has_layer_mark_) {
-      RecoveredLayer& layer = r_.layers.emplace_back();
-      layer.z_mm = from.z;
-      std::optional<double> told;
-      for (std::size_t i = header_begin; i < tool_at; ++i) {
-        layer.header.emplace_back(gap_[i].text);
-        if (gap_[i].text.starts_with(words_.height) && !told)
-          told = number<double>(trimmed(gap_[i].text.substr(words_.height.size())));
-      }
-      layer.height_mm = told.value_or(print_.layers[print_.moves[move_ - 1].layer].height_mm);
-    } else if (r_.layers.empty()) {
-      refuse(at_, "a road before the first layer");
-    } else {
-      header_begin = tool_at;
-    }
+    if (gap_.has_layer()) begin_layer(from);
+    if (r_.layers.empty()) refuse(at_, "a road before the first layer");
     if (std::abs(r_.layers.back().z_mm - from.z) > same_height_mm)
       refuse(at_, "roads of several heights in one layer are not re-planned yet");
-    const std::size_t own_end = has_layer_mark_ ? mark_in_gap_ : tool_at;
-    if (has_tool_) {
-      std::vector<std::string> enter, leave;
-      for (std::size_t i = tool_at; i < gap_.size(); ++i) enter.emplace_back(gap_[i].text);
-      if (has_layer_mark_) {
-        changed_.push_back({r_.layers.size() - 1, from_tool_, gap_[tool_at].offset});
-        for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
-      } else {
-        for (std::size_t i = 0; i < tool_at; ++i) leave.emplace_back(gap_[i].text);
-      }
-      if (stand_) {
-        stand_aside(leave, enter);
-      } else {
-        require_same(r_.enter, tool_, enter);
-        if (!has_layer_mark_) require_same(r_.leave, from_tool_, leave);
-      }
-    } else {
-      for (std::size_t i = 0; i < own_end; ++i) notes_of(gap_[i], notes);
-    }
+    if (gap_.has_tool()) change_in_gap();
     RecoveredRun begun = way_.leads_to(from);
     begun.tool = tool_;
-    begun.notes = std::move(notes);
-    if (has_tool_) begun.drawn_back = true, begun.back_after = 0;
+    if (!gap_.has_tool() || gap_.has_layer()) begun.notes = notes(gap_.before());
+    if (gap_.has_tool()) begun.drawn_back = true, begun.back_after = 0;
     r_.layers.back().runs.push_back(std::move(begun));
-    gap_.clear();
-    breaks_ = has_layer_mark_ = has_tool_ = left_header_ = travelled_after_tool_ = false;
+    gap_ = {};
+    breaks_ = left_header_ = travelled_after_tool_ = false;
     moved_among_notes_ = 0;
+  }
+
+  void begin_layer(Vec3 from) {
+    RecoveredLayer& layer = r_.layers.emplace_back();
+    layer.z_mm = from.z;
+    layer.header = texts_of(gap_.header());
+    layer.leaving = std::exchange(left_in_layer_, {});
+    layer.fed_low = fed_low_;
+    const auto told = std::ranges::find_if(layer.header, [&](const auto& l) { return l.starts_with(words_.height); });
+    std::optional<double> height_mm;
+    if (told != layer.header.end()) height_mm = number<double>(trimmed(told->substr(words_.height.size())));
+    layer.height_mm = height_mm.value_or(print_.layers[print_.moves[move_ - 1].layer].height_mm);
+  }
+
+  void change_in_gap() {
+    // Where a layer begins, what stands before it is none of the change.
+    const std::vector<std::string> enter = texts_of(gap_.enter());
+    const std::vector<std::string> leave = gap_.has_layer() ? std::vector<std::string>{} : texts_of(gap_.before());
+    if (gap_.has_layer()) changed_.push_back({r_.layers.size() - 1, from_tool_, gap_.enter().front().offset});
+    if (stand_) return stand_aside(leave, enter);
+    require_same(r_.enter, tool_, enter);
+    if (!gap_.has_layer()) require_same(r_.leave, from_tool_, leave);
   }
 
   /// The change of tools as a stop on the way: where it stands, and its lines.
@@ -478,26 +465,22 @@ class Recovery {
     stop.fixed = std::move(fixed);
     stop.drawn_back = true;
     r_.layers.back().runs.push_back(std::move(stop));
-    if (!has_layer_mark_) r_.leave.try_emplace(from_tool_, leave);
+    if (!gap_.has_layer()) r_.leave.try_emplace(from_tool_, leave);
     r_.keeps_tools = true;
     stand_.reset();
   }
 
-  struct Note {
-    std::string_view text;
-    std::size_t offset = 0;
-    bool is_command = false;
-  };
-
-  void notes_of(const Note& note, std::vector<std::string>& notes) const {
-    if (note.is_command)
-      refuse(note.offset, fmt::format("'{}' between two roads: it cannot be moved; take it out of the slicer's custom "
-                                      "G-code",
-                                      shown(trimmed(note.text))));
-    notes.emplace_back(note.text);
+  std::vector<std::string> notes(std::span<const GapLine> lines) const {
+    if (const auto found = std::ranges::find_if(lines, &GapLine::is_command); found != lines.end())
+      refuse(found->offset,
+             fmt::format("'{}' between two roads: it cannot be moved; take it out of the slicer's custom "
+                         "G-code",
+                         shown(trimmed(found->text))));
+    return texts_of(lines);
   }
 
-  void require_same(std::map<int, std::vector<std::string>>& changes, int tool, std::vector<std::string>& lines) const {
+  void require_same(std::map<int, std::vector<std::string>>& changes, int tool,
+                    const std::vector<std::string>& lines) const {
     const auto known = changes.try_emplace(tool, lines).first;
     if (known->second == lines) return;
     refuse(at_, fmt::format("the change of tool T{} before this line is not as it was before: only changes that are "
@@ -506,6 +489,7 @@ class Recovery {
   }
 
   void finish() {
+    if (gap_.has_tool()) way_.filament.clear();  // it is end_drawn_back_e5
     leave_run();
     r_.end_tool = tool_;
     r_.end_state = states_.index();
@@ -534,11 +518,12 @@ class Recovery {
   std::array<bool, max_tools> is_timed_{};  // its heater, where the dialect times them: it prints among the layers
 
   // Since the last road:
-  std::vector<Note> gap_;  // lines to be kept
+  Gap gap_;  // lines to be kept
   DrivenWay way_;
-  std::size_t behind_spiral_ = 0;                  // move
-  std::size_t mark_in_gap_ = 0, tool_in_gap_ = 0;  // where the layer begins and the tool changes
-  bool breaks_ = false, has_layer_mark_ = false, has_tool_ = false, left_header_ = false;
+  LeftWay left_in_layer_;          // that begins
+  std::size_t fed_low_ = 0;        // of it, before it rises
+  std::size_t behind_spiral_ = 0;  // move
+  bool breaks_ = false, left_header_ = false;
   bool travelled_after_tool_ = false;
   int moved_among_notes_ = 0;
   bool says_roles_behind_ = false;  // roads say behind them what they are: verbose comments of Slic3r

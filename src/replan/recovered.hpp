@@ -44,6 +44,7 @@ struct RoadArc {
 struct RunRoad {
   FilePoint to;
   std::int64_t filament_e5 = 0;
+  std::int64_t at_end_e5 = 0;  // of that, by a road too short to be told, where it ends
   double feed_mm_min = 0;
   std::uint32_t state = 0;  // index into RecoveredPrint::states
   std::uint32_t move = 0;   // index into GcodePrint::moves,
@@ -70,6 +71,18 @@ struct FixedLines {
   std::vector<std::int64_t> drawn_back_e5 = {};  // of each tool, by the lines themselves
 };
 
+/// On the spot.
+struct FilamentMove {
+  std::size_t after = 0;   // so many places of a way
+  std::int64_t by_e5 = 0;  // < 0: drawn back
+};
+
+/// What is driven after a run, and is no way to the next.
+struct LeftWay {
+  std::vector<FilePoint> places;
+  std::vector<FilamentMove> filament;
+};
+
 struct RecoveredRun {
   int tool = 0;
   FilePoint from;
@@ -77,26 +90,25 @@ struct RecoveredRun {
   std::optional<FixedLines> fixed = {};         // none
   std::vector<std::string> notes;               // comments that stand before it
   std::vector<FilePoint> way;                   // passed on the way here in the file
+  std::vector<FilamentMove> way_filament = {};  // likewise, moved
   std::vector<std::int64_t> way_z_um = {};      // there, and where it ends; empty: the nozzle does not rise on the way
   std::vector<std::string> spiral = {};         // lines that lift the nozzle before it, and before a change of tools
   std::uint32_t way_state = 0;                  // index into RecoveredPrint::states, on the way
-  std::vector<FilePoint> leaving;               // passed after it before the tool or the layer changes
+  LeftWay leaving = {};                         // before the tool or the layer changes
   std::vector<FilePoint> wipe_from = {};        // passed before its wipe
   std::vector<WipeMove> wipe = {};              // after it
   std::int64_t back_before_wipe_e5 = 0;         // drawn back on the spot before
   bool lifted = false;                          // the nozzle, on the way here
   bool drawn_back = false;                      // likewise, filament,
-  std::size_t back_after = 0;                   // where so many places of the way were passed,
-  std::size_t forward_after = ~std::size_t{0};  // and pushed forward again after so many; else where it ends
-  bool pushes_at_change = false;                // the new tool, before it drives
-  std::int64_t again_e5 = 0;                    // drawn back, and pushed forward, once more on the spot
-  std::size_t again_after = 0;                  // so many places of the way
+  std::size_t back_after = 0;                   // where so many places of the way were passed
 };
 
 struct RecoveredLayer {
   std::vector<std::string> header;  // lines
   double z_mm = 0;                  // of the nozzle while it prints
   double height_mm = 0;
+  LeftWay leaving;                 // of the layer before, where a tool is taken first,
+  std::size_t fed_low = 0;         // and of that, filament moved before the nozzle rises
   std::vector<RecoveredRun> runs;  // as in the file
 };
 

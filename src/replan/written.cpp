@@ -13,6 +13,7 @@
 #include "gcode/polyline.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/emitter.hpp"
+#include "replan/kept_ways.hpp"
 #include "replan/pieces.hpp"
 #include "replan/scene.hpp"
 
@@ -38,15 +39,15 @@ double area_of(const Points& points, At at) {
 /// Whether the closed path goes round the other way than the run.
 bool is_turned(const Path& path, const RecoveredRun& run) {
   const double planned = area_of(path.points, [](Vec2 p) { return p; });
-  const double sliced =
-      area_of(points_of(pieces_of(run)), [](FilePoint p) { return Vec2{double(p.x_um), double(p.y_um)}; });
+  const double sliced = area_of(points_of(pieces_of(run)), [](FilePoint p) {
+    return Vec2{double(p.x_um), double(p.y_um)};
+  });
   return (planned > 0) != (sliced > 0);
 }
 
 /// Drawing back over what was printed.
 struct Wipe {
-  std::vector<FilePoint> from;  // passed before it
-  std::int64_t before_e5 = 0;   // drawn back on the spot before
+  std::int64_t before_e5 = 0;  // drawn back on the spot before
   std::vector<WipeMove> moves;
 };
 
@@ -81,7 +82,7 @@ Wipe wipe_after(const RecoveredRun& run, std::vector<Piece> pieces, bool closed)
     moves[i].filament_e5 = std::llround(double(filament) * gone_um[i] / gone_um.back()) - given;
     given += moves[i].filament_e5;
   }
-  return {{}, run.back_before_wipe_e5, std::move(moves)};
+  return {run.back_before_wipe_e5, std::move(moves)};
 }
 
 class Writing {
@@ -95,6 +96,7 @@ class Writing {
         options_(options),
         words_(*words_of(print)),
         out_(recovered, words_, config, start_of_text()),
+        kept_(recovered, words_, config, out_),
         asked_mm_(config.extruders.size(), 0.),
         written_e5_(config.extruders.size(), 0) {
     find_plain_states();
@@ -147,18 +149,10 @@ class Writing {
   }
 
   void draw_back() { draw_back(extruder().retract_length_mm, extruder().retract_lift_mm); }
-  void draw_back_for_change(bool lifts = true) {
-    const double lift = std::max(extruder().retract_lift_mm, recovered_.change_lift_mm);
-    draw_back(extruder().retract_length_toolchange_mm, lifts ? lift : 0);
+  void draw_back_for_change() {
+    draw_back(extruder().retract_length_toolchange_mm, std::max(extruder().retract_lift_mm, recovered_.change_lift_mm));
   }
 
-  /// As the file does on the way to that run, and lifts.
-  void draw_back_before(const RecoveredRun& run) {
-    const bool itself = rises_by_itself(run);
-    draw_back(extruder().retract_length_mm, itself || !run.lifted ? 0 : extruder().retract_lift_mm);
-    if (!out_.is_lifted()) out_.rise(run.spiral);
-  }
-  static bool rises_by_itself(const RecoveredRun& run) { return !run.spiral.empty() || !run.way_z_um.empty(); }
   void draw_back(double length_mm, double lift_mm) {
     const std::int64_t to_e5 = std::llround(length_mm * 1e5);
     wipe(to_e5);
@@ -166,11 +160,10 @@ class Writing {
     if (lift_mm > 0) out_.lift(lift_mm);
   }
 
-  void change_tool(int tool, std::span<const std::string> spiral = {}, bool pushes = true) {
-    draw_back_for_change(spiral.empty());
-    out_.rise(spiral);
+  void change_tool(int tool) {
+    draw_back_for_change();
     out_.change_tool(tool);
-    if (!words_.pushes_at_change || !pushes) return;
+    if (!words_.pushes_at_change) return;
     out_.push_forward(std::llround(extruder().retract_length_mm * 1e5));
     out_.lower();
   }
@@ -183,11 +176,8 @@ class Writing {
     std::int64_t sum_e5 = wipe.before_e5;
     for (const WipeMove& move : wipe.moves) sum_e5 += move.filament_e5;
     if (wipe.moves.empty() || out_.drawn_back_e5() > 0 || sum_e5 > most_e5) return;
-    for (const FilePoint p : wipe.from) out_.travel(p);
     out_.draw_back(wipe.before_e5);
-    out_.line(words_.wipe_begins);
-    for (const WipeMove& move : wipe.moves) out_.wipe(move.to, move.filament_e5, move.feed_mm_min);
-    out_.line(words_.wipe_ends);
+    out_.wipe(wipe.moves);
   }
 
   void layer(std::size_t k, const Layer& planned) {
@@ -213,24 +203,16 @@ class Writing {
       }
       const RecoveredRun& run = source.runs.at(std::size_t(path.source));
       if (std::exchange(is_written[std::size_t(path.source)], char(1)) != 0) fail("a path is planned twice");
-      run.fixed ? fixed_path(path, run) : recovered_path(path, run);
+      options_.as_in_file ? kept_path(run) : run.fixed ? fixed_path(path, run) : recovered_path(path, run);
     }
     if (recovered_.elapsed_lines > 0) out_.line(fmt::format("{}0", words_.elapsed));
     if (std::ranges::find(is_written, 0) != is_written.end()) fail("a path is not planned");
   }
 
   void begin_layer(const RecoveredLayer& source) {
-    const RecoveredRun& first = source.runs.front();
-    if (!options_.as_in_file) {
-      if (extruder().retract_layer_change) draw_back();
-      return out_.set_z(source.z_mm);
-    }
-    if (!rises_by_itself(first)) {
-      if (first.drawn_back) draw_back_before(first);
-      return out_.set_z(source.z_mm);
-    }
-    if (first.drawn_back) draw_back(extruder().retract_length_mm, 0);
-    out_.take_z(source.z_mm);
+    if (options_.as_in_file) return kept_.begin_layer(source);
+    if (extruder().retract_layer_change) draw_back();
+    out_.set_z(source.z_mm);
   }
 
   [[noreturn]] void fail(std::string_view what) const {
@@ -245,7 +227,6 @@ class Writing {
 
   void go(const Path& path, FilePoint start, const RecoveredRun* run) {
     const bool changes = path.extruder != out_.tool();
-    if (options_.as_in_file && run != nullptr) return go_as_in_file(*run, start);
     double way_um = out_.is_known() ? 0 : double(unknown_way_um);
     FilePoint from = out_.at();
     std::vector<FilePoint> way;
@@ -290,38 +271,8 @@ class Writing {
     return way_um <= sliced_um + same_way_um;
   }
 
-  void go_as_in_file(const RecoveredRun& run, FilePoint start) {
-    if (run.tool != out_.tool()) {
-      change_tool(run.tool, run.spiral, run.pushes_at_change);
-      draw_back_before(run);
-    }
-    if (recovered_.drives_otherwise && !run.way.empty()) out_.set(of_moving(recovered_.states[run.way_state]));
-    const auto travel = [&](std::size_t i, FilePoint to) {
-      run.way_z_um.empty() ? out_.travel(to) : out_.travel(to, run.way_z_um[std::min(i, run.way_z_um.size() - 1)]);
-    };
-    const auto draw_back_again = [&] {
-      out_.draw_back(run.again_e5);
-      out_.push_forward();
-    };
-    for (std::size_t i = 0; i < run.way.size(); ++i) {
-      if (run.drawn_back && i == run.back_after) draw_back_before(run);
-      if (i == run.forward_after) push_forward_on_the_way();
-      if (run.again_e5 > 0 && i == run.again_after) draw_back_again();
-      travel(i, run.way[i]);
-    }
-    if (run.drawn_back && run.back_after >= run.way.size()) draw_back_before(run);
-    if (run.forward_after == run.way.size()) push_forward_on_the_way();
-    travel(run.way.size(), start);
-    if (run.again_e5 > 0 && run.again_after >= run.way.size()) draw_back_again();
-  }
-
   void push_forward() {
     out_.lower();
-    out_.push_forward();
-  }
-
-  void push_forward_on_the_way() {
-    if (out_.is_lifted()) out_.lower();
     out_.push_forward();
   }
 
@@ -334,15 +285,8 @@ class Writing {
       out_.set_known(p.state);
       out_.road(p.to, p.filament_e5, p.feed_mm_min, p.arc);
     }
-    wipe_ = options_.as_in_file ? Wipe{run.wipe_from, run.back_before_wipe_e5, run.wipe}
-                                : wipe_after(run, std::move(pieces), path.closed);
-    leave(run);
+    wipe_ = wipe_after(run, std::move(pieces), path.closed);
     last_ = &run;
-  }
-
-  void leave(const RecoveredRun& run) {
-    if (options_.as_in_file)
-      for (const FilePoint p : run.leaving) out_.travel(p);
   }
 
   void fixed_path(const Path& path, const RecoveredRun& run) {
@@ -356,7 +300,24 @@ class Writing {
     out_.fixed(*run.fixed);
     last_ = nullptr;
     wipe_ = {};
-    leave(run);
+  }
+
+  /// As it is in the file, with the way there.
+  void kept_path(const RecoveredRun& run) {
+    kept_.go(run);
+    out_.lines(run.notes);
+    if (!run.fixed) {
+      kept_.begin_plastic();
+      for (const RunRoad& road : run.roads) {
+        out_.set_known(road.state);
+        out_.road(road.to, road.filament_e5 - road.at_end_e5, road.feed_mm_min, road.arc);
+        out_.road(road.to, road.at_end_e5, road.feed_mm_min);
+      }
+    } else {
+      if (run.fixed->lays) kept_.begin_plastic(), out_.set_known(run.fixed->state);
+      out_.fixed(*run.fixed);
+    }
+    kept_.leave(run);
   }
 
   /// The roads of the run as the path walks them.
@@ -477,6 +438,7 @@ class Writing {
   const WriteOptions& options_;
   const DialectWords& words_;
   Emitter out_;
+  KeptWays kept_;
   std::size_t layer_ = 0;
   const RecoveredRun* last_ = nullptr;                   // printed last, in this layer
   Wipe wipe_;                                            // that the path printed last may be left with
