@@ -121,6 +121,42 @@ TEST(ReplanCura, WithOrderAndTravelKeptMakesTheSameMoves) {
       << "after " << old_way - before.begin() << " ways of " << before.size();
 }
 
+/// Place, filament in 1e-5 mm and tool of each move that drives or feeds.
+std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t, int>> moves_of(const std::string& text) {
+  const GcodePrint print = read_gcode(text, "");
+  std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t, int>> moves;
+  Vec2 at;
+  for (const GcodeMove& m : print.moves) {
+    const std::int64_t filament = std::llround(m.filament_mm * 1e5);
+    if (const Vec2 to{m.to_mm.x, m.to_mm.y}; filament != 0 || std::exchange(at, to) != to)
+      moves.emplace_back(std::llround(m.to_mm.x * 1e3), std::llround(m.to_mm.y * 1e3), filament, int(m.feeds));
+  }
+  return moves;
+}
+
+TEST(ReplanCura, WithOrderAndTravelKeptFeedsInAsManyPartsAsTheFile) {
+  std::mt19937 draw(7);
+  for (int round = 0; round < 20; ++round) {
+    std::istringstream lines(cura_bar());
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+      const bool on_the_spot = line.starts_with("G1 F1500 E") && !text.ends_with("G92 E0\n");
+      const double e = on_the_spot ? std::stod(line.substr(10)) : 0;
+      const int kind = on_the_spot && text.find(";LAYER:0") != text.npos ? int(draw() % 4) : 0;
+      const auto feed_to = [&](double to) { text += fmt::format("G1 F1500 E{:.5f}\n", to); };
+      if (kind == 1) feed_to(e - 0.3), feed_to(e - 0.1);  // in three parts
+      text += line + "\n";
+      if (kind == 2) feed_to(e - 0.2), feed_to(e);  // and once more
+    }
+    SCOPED_TRACE(round);
+    ASSERT_NE(text, cura_bar());
+    const auto before = moves_of(text), after = moves_of(cura_replanned(text, {.keeps_order = true}).text);
+    const auto [old_move, new_move] = std::ranges::mismatch(before, after);
+    ASSERT_TRUE(old_move == before.end() && new_move == after.end())
+        << "after " << old_move - before.begin() << " moves of " << before.size();
+  }
+}
+
 TEST(ReplanCura, PlannedAgainChangesNothing) {
   const Replanned again = cura_replanned(cura_bar_replanned());
   EXPECT_FALSE(again.changed);
