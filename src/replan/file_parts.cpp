@@ -130,6 +130,13 @@ LayersText layers_text(const GcodePrint& print, const DialectWords& words) {
   return layers;
 }
 
+void require_no_own_changes(const GcodePrint& print, const LayersText& layers) {
+  if (const std::size_t at = print.text->find("\nM620 ", layers.begin); at < layers.end)
+    refuse_line(print, at + 1,
+                "the printer changes its filament by M620, which is not re-planned: it goes only where a tool change "
+                "(T) moves nothing else");
+}
+
 void part_headers(RecoveredPrint& recovered, const std::vector<ChangedHeader>& changed, const GcodePrint& print,
                   const DialectWords& words) {
   const auto marks = [&](std::string_view line) {

@@ -59,6 +59,9 @@ struct LayersText {
 };
 LayersText layers_text(const GcodePrint& print, const DialectWords& words);
 
+/// Bambu's printers change filament in a way of their own, which drives about: throws Error where they do.
+void require_no_own_changes(const GcodePrint& print, const LayersText& layers);
+
 /// A layer that begins with a change of tools.
 struct ChangedHeader {
   std::size_t layer = 0;

@@ -14,6 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reader/print.hpp"
+
 namespace cleancolor {
 
 struct GapLine {
@@ -24,6 +26,9 @@ struct GapLine {
 
 /// The texts.
 std::vector<std::string> texts_of(std::span<const GapLine> lines);
+
+/// Likewise. Throws Error where one is a command, which cannot be moved.
+std::vector<std::string> notes_of(std::span<const GapLine> lines, const GcodePrint& print);
 
 class Gap {
  public:

@@ -7,7 +7,6 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "base/error.hpp"
@@ -15,6 +14,7 @@
 #include "replan/dialect_words.hpp"
 #include "replan/driven_way.hpp"
 #include "replan/filament_book.hpp"
+#include "replan/file_cursor.hpp"
 #include "replan/file_parts.hpp"
 #include "replan/gap.hpp"
 #include "replan/pieces.hpp"
@@ -30,12 +30,23 @@ std::int64_t to_e5(double mm) {
   return std::llround(mm * 1e5);
 }
 
+/// Of the lines of a tool's changes.
+void require_same(std::map<int, std::vector<std::string>>& changes, int tool, const std::vector<std::string>& lines,
+                  const FileCursor& in) {
+  if (changes.try_emplace(tool, lines).first->second != lines)
+    in.refuse(
+        fmt::format("the change of tool T{} before this line is not as it was before: only changes that are the same "
+                    "each time can be moved; look at the custom G-code of tool and filament",
+                    tool));
+}
+
 class Recovery {
  public:
   Recovery(const GcodePrint& print, const DialectWords& words) : print_(print), words_(words), text_(*print.text) {}
 
   RecoveredPrint result() && {
     const LayersText layers = layers_text(print_, words_);
+    require_no_own_changes(print_, layers);
     r_.begin = layers.begin, r_.end = layers.end, r_.prints_after_end = layers.prints_after;
     for (const GcodeMove& move : print_.moves)
       if (move.offset < r_.begin) r_.begin_z_mm = move.to_mm.z;
@@ -43,10 +54,9 @@ class Recovery {
     r_.e_of_each_tool = habits.e_of_each_tool, r_.says_on_and_off = habits.says_on_and_off;
     stands_aside_ = habits.stands_aside, says_roles_behind_ = habits.says_roles_behind;
     book_ = FilamentBook(print_.tools, r_.e_of_each_tool);
-    for (at_ = 0; at_ < r_.begin; at_ = next_) before_layers();
+    while (in_.next() < r_.begin) before_layers();
     begin_layers();
-    refuse_own_changes();
-    for (; at_ < r_.end; at_ = next_) in_layers();
+    while (in_.next() < r_.end) in_layers();
     part_headers(r_, changed_, print_, words_);
     if (r_.lift_slope > 0 && habits.travel_slope > 0) r_.lift_slope = habits.travel_slope;
     finish();
@@ -55,34 +65,17 @@ class Recovery {
   }
 
  private:
-  [[noreturn]] void refuse(std::size_t offset, const std::string& what) const { refuse_line(print_, offset, what); }
-
-  /// Sets line_ and raw_ to the line at at_.
-  void read_line() {
-    const std::size_t stop = std::min(text_.find('\n', at_), text_.size());
-    raw_ = text_.substr(at_, stop - at_);
-    next_ = std::min(stop + 1, text_.size());
-    if (const auto fault = parse_line(raw_, line_)) refuse(at_, std::string(*fault));
-  }
+  [[noreturn]] void refuse(const std::string& what) const { in_.refuse(what); }
 
   void take_state(const ModalLine& what) {
     if (states_.bytes() > most_state_bytes)
-      refuse(at_, "what holds for roads changes too often for so long names; shorten the names of objects");
-    states_.take(what, raw_);
+      refuse("what holds for roads changes too often for so long names; shorten the names of objects");
+    states_.take(what, in_.raw());
     if (states_.size() > most_settings)
-      refuse(at_,
-             fmt::format("'{}': more than {} things are set by lines like this; take it out of the slicer's custom "
-                         "G-code",
-                         shown(trimmed(raw_)), most_settings));
-  }
-
-  /// Index of the move that the line makes; nothing where it makes none.
-  std::optional<std::size_t> take_move() {
-    while (move_ < print_.moves.size() && print_.moves[move_].offset < at_) ++move_;
-    if (move_ == print_.moves.size() || print_.moves[move_].offset != at_) return std::nullopt;
-    const std::size_t found = move_++;
-    if (move_ < print_.moves.size() && print_.moves[move_].offset == at_) refuse(at_, "this line makes several moves");
-    return found;
+      refuse(
+          fmt::format("'{}': more than {} things are set by lines like this; take it out of the slicer's custom "
+                      "G-code",
+                      shown(trimmed(in_.raw())), most_settings));
   }
 
   void count_e() {
@@ -90,13 +83,17 @@ class Recovery {
     if (line_.letter == 'G' && line_.number <= 3 && line_.has_value('F')) feed_ = line_['F'];
   }
 
+  void take_moves() {
+    for (std::size_t i = in_.first_move(); i < in_.behind_moves(); ++i) book_.move(print_.moves[i]);
+  }
+
   void before_layers() {
-    read_line();
+    in_.read();
     if (line_.letter == 'M' && (line_.number == 82 || line_.number == 83)) r_.relative_e = line_.number == 83;
     count_e();
     if (const auto tool = tool_taken(line_); tool && *tool >= 0 && *tool < max_tools) tool_ = *tool;
     if (const auto what = modal_line(line_)) take_state(*what);
-    while (move_ < print_.moves.size() && print_.moves[move_].offset < next_) book_.move(print_.moves[move_++]);
+    take_moves();
   }
 
   void begin_layers() {
@@ -104,7 +101,7 @@ class Recovery {
       if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) tool_ = e.tool;
     r_.begin_tool = tool_;
     is_timed_[std::size_t(tool_)] = true;
-    for (std::size_t i = move_; i < print_.moves.size() && print_.moves[i].offset < r_.end; ++i)
+    for (std::size_t i = in_.behind_moves(); i < print_.moves.size() && print_.moves[i].offset < r_.end; ++i)
       if (lays_plastic(print_, i)) is_timed_[print_.moves[i].feeds] = true;
     // A wall of a rampart says what it is; what follows must say again that it does not.
     if (print_.facts.dialect == Dialect::slic3r)
@@ -113,62 +110,54 @@ class Recovery {
         states_.set_first(key, line);
     r_.begin_state = states_.index();
     states_.set_first("fan", "M107");
-    if (words_.begins_drawn_back) book_.take_first_pushes(print_, move_);
+    if (words_.begins_drawn_back) book_.take_first_pushes(print_, in_.behind_moves());
     book_.begin_layers();
     r_.begin_count_e5 = book_.counts();
     breaks_ = true;
   }
 
-  /// Bambu's printers change filament in a way of their own, which drives about.
-  void refuse_own_changes() const {
-    if (const std::size_t at = text_.find("\nM620 ", r_.begin); at < r_.end)
-      refuse(at + 1,
-             "the printer changes its filament by M620, which is not re-planned: it goes only where a tool change "
-             "(T) moves nothing else");
-  }
-
   void in_layers() {
-    read_line();
-    if (raw_.starts_with(";WIPE_SCRIPT_BEGIN"))
-      refuse(at_, "nozzles are wiped between layers, which is not re-planned; switch off clean_between_layers in Cura");
-    if (raw_.starts_with(words_.tower)) return tower();
+    in_.read();
+    if (in_.raw().starts_with(";WIPE_SCRIPT_BEGIN"))
+      refuse("nozzles are wiped between layers, which is not re-planned; switch off clean_between_layers in Cura");
+    if (in_.raw().starts_with(words_.tower)) return tower();
     count_e();
     if (line_.letter == 0 && line_.word.empty() && line_.present == 0) return comment();
     if (const auto what = modal_line(line_)) return take_state(*what);
     if (line_.letter == 'G') return command_g();
     if (const auto tool = tool_taken(line_)) return change_to(*tool);
     if (line_.letter == 'M' && line_.number == 73 && line_.has('P')) {
-      if (r_.progress_line.empty() && raw_.starts_with("M73 P")) r_.progress_line = raw_;
+      if (r_.progress_line.empty() && in_.raw().starts_with("M73 P")) r_.progress_line = in_.raw();
       return;
     }
     if (line_.letter == 'M' && line_.number == 73 && line_.has('Q')) {
-      if (r_.silent_progress_line.empty() && raw_.starts_with("M73 Q")) r_.silent_progress_line = raw_;
+      if (r_.silent_progress_line.empty() && in_.raw().starts_with("M73 Q")) r_.silent_progress_line = in_.raw();
       return;
     }
     if (r_.says_on_and_off && line_.letter == 'M' && (line_.number == 101 || line_.number == 103)) return;
     if (line_.letter == 0 && line_.word.empty())
-      refuse(at_, "a move without its G command among the layers is not re-planned");
+      refuse("a move without its G command among the layers is not re-planned");
     command();
   }
 
   void comment() {
-    if (!line_.has_comment || raw_ == words_.wipe_begins || raw_ == words_.wipe_ends) return;
-    if (!words_.elapsed.empty() && raw_.starts_with(words_.elapsed)) {
+    if (!line_.has_comment || in_.raw() == words_.wipe_begins || in_.raw() == words_.wipe_ends) return;
+    if (!words_.elapsed.empty() && in_.raw().starts_with(words_.elapsed)) {
       ++r_.elapsed_lines;
       return;
     }
-    if (std::ranges::find(words_.of_ways, raw_) != words_.of_ways.end()) return;
-    if (begins_with_one_of(raw_, words_.layer_begins)) {
-      const bool may_follow = !words_.layer_begins[1].empty() && !raw_.starts_with(words_.layer_begins[1]);
-      if (gap_.has_layer() && !may_follow) refuse(at_, "a layer without roads");
+    if (std::ranges::find(words_.of_ways, in_.raw()) != words_.of_ways.end()) return;
+    if (begins_with_one_of(in_.raw(), words_.layer_begins)) {
+      const bool may_follow = !words_.layer_begins[1].empty() && !in_.raw().starts_with(words_.layer_begins[1]);
+      if (gap_.has_layer() && !may_follow) refuse("a layer without roads");
       if (!gap_.has_layer()) mark_layer();
-      gap_.add({raw_, at_, false});
+      gap_.add({in_.raw(), in_.at(), false});
       return;
     }
     if (const auto what = modal_line(line_)) {
       take_state(*what);
       if (gap_.has_layer() && !gap_.has_tool() && !left_header_ && what->key == height_key)
-        gap_.add({raw_, at_, false});
+        gap_.add({in_.raw(), in_.at(), false});
       return;
     }
     keep(false);
@@ -176,9 +165,8 @@ class Recovery {
 
   /// A line that stays.
   void keep(bool is_command) {
-    if (travelled_after_tool_)
-      refuse(at_, "the carriage is moved by the code of this tool change; it cannot be re-planned");
-    gap_.add({raw_, at_, is_command});
+    if (travelled_after_tool_) refuse("the carriage is moved by the code of this tool change; it cannot be re-planned");
+    gap_.add({in_.raw(), in_.at(), is_command});
   }
 
   /// What was driven since the last road is no way to the next.
@@ -189,7 +177,7 @@ class Recovery {
   void leave_run() { leave_run(way_.places.size()); }
 
   void mark_layer() {
-    if (gap_.has_tool()) refuse(at_, "a layer begins after a tool change without a road between them");
+    if (gap_.has_tool()) refuse("a layer begins after a tool change without a road between them");
     leave_run(words_.rises_before_layer ? way_.rises_after.value_or(way_.places.size()) : way_.places.size());
     gap_.begin_layer();
     left_header_ = false;
@@ -203,20 +191,20 @@ class Recovery {
     const bool heats = line_.letter == 'M' && (line_.number == 104 || line_.number == 109);
     if (words_.times_heaters && (asks || (heats && is_timed(line_.value_or('T', tool_))))) return;
     if (words_.times_heaters && gap_.has_tool() && line_.letter == 'M' && line_.number == 116) return keep(true);
-    if (const auto fault = fault_of_command(line_, raw_, gap_.has_tool() || print_.tools <= 1)) refuse(at_, *fault);
+    if (const auto fault = fault_of_command(line_, in_.raw(), gap_.has_tool() || print_.tools <= 1)) refuse(*fault);
     keep(true);
   }
 
   int known_tool(int tool) const {
-    if (tool < 0 || tool >= max_tools) refuse(at_, "a tool change that is not understood");
+    if (tool < 0 || tool >= max_tools) refuse("a tool change that is not understood");
     return tool;
   }
 
   void change_to(int tool) {
     known_tool(tool);
-    if (gap_.has_tool()) refuse(at_, "two tool changes without a road between them");
+    if (gap_.has_tool()) refuse("two tool changes without a road between them");
     if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
-      refuse(at_, "the carriage is moved by the code before this tool change; it cannot be re-planned");
+      refuse("the carriage is moved by the code before this tool change; it cannot be re-planned");
     if (stands_aside_ && !way_.places.empty()) stand_ = way_.take_last();
     fed_low_ = way_.fed_low;
     leave_run();
@@ -226,17 +214,21 @@ class Recovery {
     tool_ = tool;
     if (words_.lifts_at_change && !gap_.has_layer() && !r_.layers.empty())
       r_.change_lift_mm = std::max(r_.change_lift_mm, way_.rise_mm);
-    gap_.add({raw_, at_, false});
+    gap_.add({in_.raw(), in_.at(), false});
   }
 
   void command_g() {
     if (line_.number == 17) return;  // the plane of arcs is no other one anywhere
-    if (is_spiral()) return lift_in_spiral();
-    if (const auto fault = fault_of_g(line_, raw_)) refuse(at_, *fault);
+    if (is_spiral()) {
+      way_.spiral.emplace_back(in_.raw());
+      breaks_ = true;
+      return;
+    }
+    if (const auto fault = fault_of_g(line_, in_.raw())) refuse(*fault);
     if (line_.number == 92) return;
     if (line_.number == 10) return keep(true);  // a temperature
     if (line_.number == 2 || line_.number == 3) return lay_arc();
-    const auto index = take_move();
+    const auto index = in_.move();
     if (!index) return;  // a speed alone
     const GcodeMove& move = print_.moves[*index];
     const Vec3 from = *index > 0 ? print_.moves[*index - 1].to_mm : Vec3{};
@@ -246,16 +238,8 @@ class Recovery {
 
   /// Whether the line is of a lift that goes round and comes back to where it began.
   bool is_spiral() {
-    while (move_ < print_.moves.size() && print_.moves[move_].offset < at_) ++move_;
-    const bool moves = move_ < print_.moves.size() && print_.moves[move_].offset == at_;
-    if (moves && behind_spiral_ <= move_) behind_spiral_ = behind_spiral(print_, move_);
-    return moves && move_ < behind_spiral_;
-  }
-
-  void lift_in_spiral() {
-    while (move_ < behind_spiral_ && print_.moves[move_].offset == at_) ++move_;
-    way_.spiral.emplace_back(raw_);
-    breaks_ = true;
+    if (in_.moves() && behind_spiral_ <= in_.first_move()) behind_spiral_ = behind_spiral(print_, in_.first_move());
+    return in_.moves() && in_.first_move() < behind_spiral_;
   }
 
   void go(const GcodeMove& move, Vec3 from) {
@@ -270,18 +254,18 @@ class Recovery {
     way_.top_z_mm = std::max(way_.top_z_mm, move.to_mm.z);
     if (across && gap_.has_tool()) travelled_after_tool_ = true;
     if (move.filament_mm < 0 && across) return wipe(move);
-    if (move.filament_mm > 0 && across) refuse(at_, "filament is pushed on the way");
+    if (move.filament_mm > 0 && across) refuse("filament is pushed on the way");
     if (across && !gap_.has_tool() && !gap_.all().empty()) ++moved_among_notes_;
     if (gap_.has_layer()) left_header_ = left_header_ || across;
     if (move.to_mm.z != from.z && !way_.rises_after) way_.rises_after = way_.places.size();
     if (!r_.layers.empty()) way_.rise_mm = std::max(way_.rise_mm, move.to_mm.z - r_.layers.back().z_mm);
     if (move.filament_mm > 0) {
       const std::int64_t beyond = to_e5(move.filament_mm) - book_.back_of(move.feeds);
-      if (beyond > filament_rounding_e5) refuse(at_, "plastic is pushed out on the spot, more than was drawn back");
+      if (beyond > filament_rounding_e5) refuse("plastic is pushed out on the spot, more than was drawn back");
     }
     if (move.filament_mm != 0) way_.move_filament(to_e5(move.filament_mm));
     if (line_.has('A') || line_.has('B') || move.feeds != move.tool)
-      refuse(at_, "filament of another tool than the one in use is moved");
+      refuse("filament of another tool than the one in use is moved");
     book_.move(move);
     if (!across) return;
     way_.drive_to(move.to_mm, states_.index());
@@ -297,7 +281,7 @@ class Recovery {
   /// Drawing back on the way, over what was just printed.
   void wipe(const GcodeMove& move) {
     const bool follows = !gap_.has_tool() && has_run() && !run().fixed;
-    if (!follows || move.feeds != move.tool) refuse(at_, "filament is drawn back on the way, but not after a road");
+    if (!follows || move.feeds != move.tool) refuse("filament is drawn back on the way, but not after a road");
     if (run().wipe.empty()) {
       run().wipe_from = std::exchange(way_.places, {});
       way_.z_um.clear();
@@ -305,7 +289,7 @@ class Recovery {
       const std::int64_t back = book_.back_of(move.feeds);
       run().back_before_wipe_e5 = back > filament_rounding_e5 ? back : 0;
     } else if (!way_.places.empty()) {
-      refuse(at_, "filament is drawn back on the way, but not after a road");
+      refuse("filament is drawn back on the way, but not after a road");
     }
     run().wipe.push_back({file_point(move.to_mm), -to_e5(move.filament_mm), feed_});
     book_.move(move);
@@ -313,46 +297,36 @@ class Recovery {
     way_.back_after = 0;
   }
 
-  /// The first move from there on that lays plastic; else their number.  Requires: there is no less than before.
-  std::size_t next_plastic(std::size_t from) {
-    next_plastic_ = std::max(next_plastic_, from);
-    while (next_plastic_ < print_.moves.size() && !lays_plastic(print_, next_plastic_)) ++next_plastic_;
-    return next_plastic_;
-  }
-
   /// A piece of a wipe tower: all from its first comment to its last road stays as it is.
   void tower() {
-    if (!r_.relative_e) refuse(at_, "a wipe tower with absolute E is not re-planned; switch on relative E");
-    std::size_t last = 0, i = move_;
-    while (i < print_.moves.size() && print_.moves[i].offset < at_) ++i;
-    if (i == 0 || gap_.has_tool()) refuse(at_, "a wipe tower that begins with a tool change is not re-planned");
-    const Vec3 from = print_.moves[i - 1].to_mm;
-    for (i = next_plastic(i); i < print_.moves.size(); ++i) {
+    if (!r_.relative_e) refuse("a wipe tower with absolute E is not re-planned; switch on relative E");
+    if (in_.first_move() == 0 || gap_.has_tool())
+      refuse("a wipe tower that begins with a tool change is not re-planned");
+    const Vec3 from = print_.moves[in_.first_move() - 1].to_mm;
+    std::size_t last = 0;
+    for (std::size_t i = in_.next_plastic(); i < print_.moves.size(); ++i) {
       if (!lays_plastic(print_, i)) continue;
       const GcodeMove& move = print_.moves[i];
       if (move.role != Role::wipe_tower || std::abs(move.to_mm.z - from.z) > same_height_mm) break;
       last = i;
     }
     if (last == 0) return comment();  // it says so, and lays none
-    if (book_.back_of(tool_) > filament_rounding_e5)
-      refuse(at_, "a wipe tower that begins while filament is drawn back");
+    if (book_.back_of(tool_) > filament_rounding_e5) refuse("a wipe tower that begins while filament is drawn back");
     FixedLines fixed{.lines = {}, .lays = true, .state = states_.index(), .drawn_back_e5 = book_.back()};
     close_gap(from);
     const std::size_t end = behind_wipe(text_, line_end(text_, print_.moves[last].offset), words_);
-    for (;; at_ = next_) {
-      read_line();
+    for (;; in_.read()) {
       count_e();
-      fixed.lines.emplace_back(raw_);
+      fixed.lines.emplace_back(in_.raw());
       // M220 holds for the tower alone.
       if (const auto what = modal_line(line_); what && line_.number != 220) take_state(*what);
       if (const auto tool = tool_taken(line_)) tool_ = known_tool(*tool);
-      for (; move_ < print_.moves.size() && print_.moves[move_].offset < next_; ++move_)
-        book_.move(print_.moves[move_]);
-      if (next_ >= end) break;
+      take_moves();
+      if (in_.next() >= end) break;
     }
     for (std::size_t t = 0; t < book_.back().size(); ++t)
       fixed.drawn_back_e5[t] = book_.back()[t] - fixed.drawn_back_e5[t];
-    const Vec3 to = print_.moves[move_ - 1].to_mm;
+    const Vec3 to = print_.moves[in_.behind_moves() - 1].to_mm;
     fixed.tool_after = tool_;
     fixed.to = file_point(to);
     run().fixed = std::move(fixed);
@@ -361,36 +335,33 @@ class Recovery {
 
   /// An arc of plastic, in chords.
   void lay_arc() {
-    while (move_ < print_.moves.size() && print_.moves[move_].offset < at_) ++move_;
-    const std::size_t first = move_;
-    while (move_ < print_.moves.size() && print_.moves[move_].offset == at_) ++move_;
-    if (first == move_ || first == 0 || !print_.moves[first].arc || !lays_plastic(print_, first))
-      refuse(at_, "an arc that lays no plastic is not re-planned; switch off arcs in the slicer");
-    const Vec3 from = print_.moves[first - 1].to_mm, to = print_.moves[move_ - 1].to_mm;
+    const std::size_t first = in_.first_move(), behind = in_.behind_moves();
+    if (first == behind || first == 0 || !print_.moves[first].arc || !lays_plastic(print_, first))
+      refuse("an arc that lays no plastic is not re-planned; switch off arcs in the slicer");
+    const Vec3 from = print_.moves[first - 1].to_mm, to = print_.moves[behind - 1].to_mm;
     const auto arc = arc_of(line_, {from.x, from.y}, {to.x, to.y});
-    if (!arc)
-      refuse(at_, "an arc that is a whole circle, or none, is not re-planned; switch off arc fitting in the slicer");
-    lay(first, print_.moves[move_ - 1], from);
+    if (!arc) refuse("an arc that is a whole circle, or none, is not re-planned; switch off arc fitting in the slicer");
+    lay(first, print_.moves[behind - 1], from);
     RunRoad& road = run().roads.back();
-    road.moves = std::uint32_t(move_ - first);
+    road.moves = std::uint32_t(behind - first);
     road.arc = arc;
     double filament_mm = 0;
-    for (std::size_t i = first; i < move_; ++i) filament_mm += print_.moves[i].filament_mm;
+    for (std::size_t i = first; i < behind; ++i) filament_mm += print_.moves[i].filament_mm;
     road.filament_e5 = to_e5(filament_mm);
   }
 
   /// index: of the first move of its line, move: the last.
   void lay(std::size_t index, const GcodeMove& move, Vec3 from) {
-    if (const auto fault = fault_of_road(move, from, tool_, words_)) refuse(at_, *fault);
+    if (const auto fault = fault_of_road(move, from, tool_, words_)) refuse(*fault);
     if (move.role == Role::wipe_tower) r_.keeps_tools = true;
     require_pushed_forward();
     const Role before = breaks_ ? move.role : print_.moves[run().roads.back().move].role;
     // Supports and ironing have their own place in the order.
     const bool differ = is_auxiliary(before) != is_auxiliary(move.role);
     if (breaks_ || differ || (before == Role::ironing) != (move.role == Role::ironing)) close_gap(from);
-    if (r_.layers.empty()) refuse(at_, "a road before the first layer");
+    if (r_.layers.empty()) refuse("a road before the first layer");
     for (const GapLine& line : gap_.all()) {
-      if (line.is_command) refuse(line.offset, "a command in the middle of a road: it cannot be moved");
+      if (line.is_command) refuse_line(print_, line.offset, "a command in the middle of a road: it cannot be moved");
       run().notes.emplace_back(line.text);
     }
     gap_ = {};
@@ -406,10 +377,11 @@ class Recovery {
 
   void require_pushed_forward() {
     if (const std::int64_t back = book_.begin_road(tool_); back > filament_rounding_e5)
-      refuse(at_, fmt::format("a road while {:g} mm of filament are drawn back: less is pushed forward than was drawn "
-                              "back; set the extra length on restart (retract_restart_extra; Cura: "
-                              "retraction_extra_prime_amount) to 0 in the slicer",
-                              double(back) * 1e-5));
+      refuse(
+          fmt::format("a road while {:g} mm of filament are drawn back: less is pushed forward than was drawn "
+                      "back; set the extra length on restart (retract_restart_extra; Cura: "
+                      "retraction_extra_prime_amount) to 0 in the slicer",
+                      double(back) * 1e-5));
   }
 
   bool has_run() const { return !r_.layers.empty() && !r_.layers.back().runs.empty(); }
@@ -418,13 +390,13 @@ class Recovery {
   /// What lies between two runs: ends of what was printed, a new layer, another tool, the way.
   void close_gap(Vec3 from) {
     if (gap_.has_layer()) begin_layer(from);
-    if (r_.layers.empty()) refuse(at_, "a road before the first layer");
+    if (r_.layers.empty()) refuse("a road before the first layer");
     if (std::abs(r_.layers.back().z_mm - from.z) > same_height_mm)
-      refuse(at_, "roads of several heights in one layer are not re-planned yet");
+      refuse("roads of several heights in one layer are not re-planned yet");
     if (gap_.has_tool()) change_in_gap();
     RecoveredRun begun = way_.leads_to(from);
     begun.tool = tool_;
-    if (!gap_.has_tool() || gap_.has_layer()) begun.notes = notes(gap_.before());
+    if (!gap_.has_tool() || gap_.has_layer()) begun.notes = notes_of(gap_.before(), print_);
     if (gap_.has_tool()) begun.drawn_back = true, begun.back_after = 0;
     r_.layers.back().runs.push_back(std::move(begun));
     gap_ = {};
@@ -441,7 +413,7 @@ class Recovery {
     const auto told = std::ranges::find_if(layer.header, [&](const auto& l) { return l.starts_with(words_.height); });
     std::optional<double> height_mm;
     if (told != layer.header.end()) height_mm = number<double>(trimmed(told->substr(words_.height.size())));
-    layer.height_mm = height_mm.value_or(print_.layers[print_.moves[move_ - 1].layer].height_mm);
+    layer.height_mm = height_mm.value_or(print_.layers[print_.moves[in_.behind_moves() - 1].layer].height_mm);
   }
 
   void change_in_gap() {
@@ -450,8 +422,8 @@ class Recovery {
     const std::vector<std::string> leave = gap_.has_layer() ? std::vector<std::string>{} : texts_of(gap_.before());
     if (gap_.has_layer()) changed_.push_back({r_.layers.size() - 1, from_tool_, gap_.enter().front().offset});
     if (stand_) return stand_aside(leave, enter);
-    require_same(r_.enter, tool_, enter);
-    if (!gap_.has_layer()) require_same(r_.leave, from_tool_, leave);
+    require_same(r_.enter, tool_, enter, in_);
+    if (!gap_.has_layer()) require_same(r_.leave, from_tool_, leave, in_);
   }
 
   /// The change of tools as a stop on the way: where it stands, and its lines.
@@ -468,24 +440,6 @@ class Recovery {
     if (!gap_.has_layer()) r_.leave.try_emplace(from_tool_, leave);
     r_.keeps_tools = true;
     stand_.reset();
-  }
-
-  std::vector<std::string> notes(std::span<const GapLine> lines) const {
-    if (const auto found = std::ranges::find_if(lines, &GapLine::is_command); found != lines.end())
-      refuse(found->offset,
-             fmt::format("'{}' between two roads: it cannot be moved; take it out of the slicer's custom "
-                         "G-code",
-                         shown(trimmed(found->text))));
-    return texts_of(lines);
-  }
-
-  void require_same(std::map<int, std::vector<std::string>>& changes, int tool,
-                    const std::vector<std::string>& lines) const {
-    const auto known = changes.try_emplace(tool, lines).first;
-    if (known->second == lines) return;
-    refuse(at_, fmt::format("the change of tool T{} before this line is not as it was before: only changes that are "
-                            "the same each time can be moved; look at the custom G-code of tool and filament",
-                            tool));
   }
 
   void finish() {
@@ -505,10 +459,8 @@ class Recovery {
   std::string_view text_;
   RecoveredPrint r_;
 
-  std::size_t at_ = 0, next_ = 0, move_ = 0, next_plastic_ = 0;
-  std::string_view raw_;
-  GcodeLine line_;
-
+  FileCursor in_{print_};
+  const GcodeLine& line_ = in_.line();
   StateLog states_;
   std::optional<std::uint32_t> road_state_;  // of the last road
   ModalState road_moving_;
