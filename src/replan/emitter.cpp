@@ -60,6 +60,11 @@ void Emitter::forget(std::string_view key) {
   known_state_.reset();
 }
 
+void Emitter::begin_layer(std::span<const std::string> lines) {
+  ++layers_;
+  header(lines);
+}
+
 void Emitter::header(std::span<const std::string> all) {
   known_state_.reset();
   for (const std::string& text : all) {
@@ -247,11 +252,9 @@ void Emitter::wipe(std::span<const WipeMove> moves) {
 }
 
 void Emitter::change_tool(int tool) {
-  const auto lines_of = [](const auto& changes, int of) {
-    const auto found = changes.find(of);
-    return found == changes.end() ? std::span<const std::string>() : std::span(found->second);
-  };
-  change_tool(tool, lines_of(recovered_.leave, tool_), lines_of(recovered_.enter, tool));
+  const ToolChanges::Lines* leave = recovered_.changes.leave(tool_);
+  change_tool(tool, leave != nullptr ? *leave : ToolChanges::Lines{},
+              recovered_.changes.enter(tool, layers_ <= 1, config_.extruders[std::size_t(tool)]));
 }
 
 void Emitter::change_tool(int tool, std::span<const std::string> leave, std::span<const std::string> enter) {

@@ -37,8 +37,7 @@ class Emitter {
   void set_known(std::uint32_t state);  // index into RecoveredPrint::states
   void forget(std::string_view key);    // it is told anew
 
-  /// Lines that may be modal ones: the state follows.
-  void header(std::span<const std::string> all);
+  void begin_layer(std::span<const std::string> header);
 
   void travel(FilePoint to);
   void travel(FilePoint to, std::int64_t z_um);
@@ -68,6 +67,7 @@ class Emitter {
   std::string finish();
 
  private:
+  void header(std::span<const std::string> all);  // may be modal ones: the state follows
   void put_feed(double feed_mm_min);
   void put_e(std::int64_t delta_e5);
   void end_line() { text_ += '\n'; }
@@ -88,6 +88,7 @@ class Emitter {
   ModalState state_;
   std::optional<std::uint32_t> known_state_;  // that the text is left in
   int tool_ = 0;
+  std::size_t layers_ = 0;  // begun
   bool known_ = false, z_known_ = false;
   FilePoint at_;
   std::int64_t z_um_ = 0, told_z_um_ = 0, lift_um_ = 0;

@@ -144,22 +144,22 @@ void part_headers(RecoveredPrint& recovered, const std::vector<ChangedHeader>& c
   };
   for (const ChangedHeader& c : changed) {
     std::vector<std::string>& header = recovered.layers[c.layer].header;
-    const auto known = recovered.leave.find(c.from_tool);
+    const ToolChanges::Lines* known = recovered.changes.leave(c.from_tool);
     std::size_t plain = header.size();
     while (plain > 0 && !marks(header[plain - 1])) --plain;
-    const std::size_t length = known != recovered.leave.end() ? known->second.size() : header.size() - plain;
+    const std::size_t length = known != nullptr ? known->size() : header.size() - plain;
     const auto rest = header.end() - std::ptrdiff_t(std::min(length, header.size()));
     const std::vector<std::string> leave(rest, header.end());
     std::optional<FixedLines>& fixed = recovered.layers[c.layer].runs.front().fixed;
     if (fixed && !fixed->lays) {
       fixed->lines.insert(fixed->lines.begin(), leave.begin(), leave.end());
       fixed->tool_at = leave.size();
-    } else if (known != recovered.leave.end() && known->second != leave) {
+    } else if (known != nullptr && *known != leave) {
       refuse_line(print, c.offset,
                   "a layer begins with a tool change that is not as those before; look at the custom G-code of tool "
                   "and filament");
     } else {
-      recovered.leave.try_emplace(c.from_tool, leave);
+      recovered.changes.take_leave(c.from_tool, leave);
     }
     header.erase(rest, header.end());
   }

@@ -30,16 +30,6 @@ std::int64_t to_e5(double mm) {
   return std::llround(mm * 1e5);
 }
 
-/// Of the lines of a tool's changes.
-void require_same(std::map<int, std::vector<std::string>>& changes, int tool, const std::vector<std::string>& lines,
-                  const FileCursor& in) {
-  if (changes.try_emplace(tool, lines).first->second != lines)
-    in.refuse(
-        fmt::format("the change of tool T{} before this line is not as it was before: only changes that are the same "
-                    "each time can be moved; look at the custom G-code of tool and filament",
-                    tool));
-}
-
 class Recovery {
  public:
   Recovery(const GcodePrint& print, const DialectWords& words) : print_(print), words_(words), text_(*print.text) {}
@@ -422,8 +412,16 @@ class Recovery {
     const std::vector<std::string> leave = gap_.has_layer() ? std::vector<std::string>{} : texts_of(gap_.before());
     if (gap_.has_layer()) changed_.push_back({r_.layers.size() - 1, from_tool_, gap_.enter().front().offset});
     if (stand_) return stand_aside(leave, enter);
-    require_same(r_.enter, tool_, enter, in_);
-    if (!gap_.has_layer()) require_same(r_.leave, from_tool_, leave, in_);
+    require_as_before(r_.changes.take_enter(tool_, enter, r_.layers.size() == 1), tool_);
+    if (!gap_.has_layer()) require_as_before(r_.changes.take_leave(from_tool_, leave), from_tool_);
+  }
+
+  void require_as_before(bool is_same, int tool) const {
+    if (is_same) return;
+    refuse(
+        fmt::format("the change of tool T{} before this line is not as it was before: only changes that are the same "
+                    "each time can be moved; look at the custom G-code of tool and filament",
+                    tool));
   }
 
   /// The change of tools as a stop on the way: where it stands, and its lines.
@@ -437,7 +435,7 @@ class Recovery {
     stop.fixed = std::move(fixed);
     stop.drawn_back = true;
     r_.layers.back().runs.push_back(std::move(stop));
-    if (!gap_.has_layer()) r_.leave.try_emplace(from_tool_, leave);
+    if (!gap_.has_layer()) r_.changes.take_leave(from_tool_, leave);
     r_.keeps_tools = true;
     stand_.reset();
   }

@@ -14,13 +14,13 @@
 
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "reader/print.hpp"
 #include "replan/modal.hpp"
+#include "replan/tool_changes.hpp"
 
 namespace cleancolor {
 
@@ -119,9 +119,8 @@ struct RecoveredPrint {
   std::vector<RecoveredLayer> layers;
   std::vector<ModalState> states;
 
-  bool keeps_tools = false;                       // changes of tools stay as many, and in their order
-  std::map<int, std::vector<std::string>> leave;  // lines that a tool is left with
-  std::map<int, std::vector<std::string>> enter;  // and taken with: its T and what follows
+  bool keeps_tools = false;  // changes of tools stay as many, and in their order
+  ToolChanges changes;
 
   bool relative_e = false;
   bool e_of_each_tool = false;                    // each tool has its own count, which is never set anew (Sailfish)

@@ -78,9 +78,8 @@ class TowerChange {
   int changes_ = 0;
 };
 
-void require_same(std::map<int, std::vector<std::string>>& changes, int tool, const std::vector<std::string>& lines,
-                  const GcodePrint& print, std::size_t layer) {
-  if (changes.try_emplace(tool, lines).first->second == lines) return;
+void require_as_before(bool is_same, int tool, const GcodePrint& print, std::size_t layer) {
+  if (is_same) return;
   throw Error(
       fmt::format("{}: layer {}: the change of tool T{} is not as it was before; without the tower it cannot be "
                   "moved",
@@ -129,8 +128,8 @@ RemovedFilament remove_tower(RecoveredPrint& recovered, const GcodePrint& print)
       TowerChange lines(print, k);
       for (const std::string& line : run.fixed->lines) lines.add(line);
       if (const auto change = std::move(lines).result()) {
-        require_same(recovered.leave, run.tool, change->leave, print, k);
-        require_same(recovered.enter, change->tool, change->enter, print, k);
+        require_as_before(recovered.changes.take_leave(run.tool, change->leave), run.tool, print, k);
+        require_as_before(recovered.changes.take_enter(change->tool, change->enter, k == 0), change->tool, print, k);
       }
       erase_run(recovered, print, k, i);
     }

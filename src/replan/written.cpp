@@ -185,7 +185,7 @@ class Writing {
     layer_ = k;
     last_ = nullptr;
     std::vector<char> is_written(source.runs.size(), 0);
-    out_.header(source.header);
+    out_.begin_layer(source.header);
     for (const std::string& line : {recovered_.progress_line, recovered_.silent_progress_line})
       if (!line.empty()) out_.line(line);  // its numbers come later
     begin_layer(source);

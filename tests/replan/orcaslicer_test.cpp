@@ -163,6 +163,20 @@ TEST(ReplanOrcaSlicer, WaitsForEachToolWhereTheFileDoes) {
   EXPECT_GE(changes, 6);
 }
 
+TEST(ReplanOrcaSlicer, HeatsAToolInTheFirstLayerAsTheFileDoesThere) {
+  const std::string own = fixture("orcaslicer.gcode"), text = replaced(own, "\nM109 S230\n", "\nM109 S215\n");
+  ASSERT_NE(text, own);
+  const Replanned result = replanned_text(text);
+  EXPECT_TRUE(result.changed);
+  int layer = 0, tool = 0;
+  for (const std::string& line : lines_of(layers_of(result.text, ";LAYER_CHANGE"))) {
+    if (line == ";LAYER_CHANGE") ++layer;
+    if (line.starts_with("T")) tool = line[1] - '0';
+    if (line.starts_with("M109")) EXPECT_EQ(line, layer == 1 && tool == 1 ? "M109 S215" : "M109 S230") << layer;
+  }
+  EXPECT_EQ(layer, 6);
+}
+
 TEST(ReplanOrcaSlicer, WithoutItsTowerIsDrivenAsTheFileDrives) {
   const std::string text = fixture("orcaslicer-tower.gcode");
   const std::string fast = with_line(text, "SET_VELOCITY_LIMIT ACCEL=777", "; CP TOOLCHANGE WIPE");
