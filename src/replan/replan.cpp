@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "audit/timeline.hpp"
 #include "base/error.hpp"
+#include "reader/read.hpp"
 #include "replan/attempts.hpp"
 #include "replan/cura.hpp"
 #include "replan/dialect_words.hpp"
@@ -49,10 +51,39 @@ Replanned unchanged(const GcodePrint& print, std::string reason) {
   return {.text = *print.text, .changed = false, .reason = std::move(reason)};
 }
 
+/// Whether all of its lines end with CR and LF, as Windows has them.
+bool has_windows_line_ends(std::string_view text) {
+  const auto ends = std::ranges::count(text, '\n');
+  if (ends == 0 || std::ranges::count(text, '\r') != ends) return false;
+  for (std::size_t at = text.find('\r'); at != text.npos; at = text.find('\r', at + 1))
+    if (at + 1 == text.size() || text[at + 1] != '\n') return false;
+  return true;
+}
+
+std::string with_windows_line_ends(std::string_view text) {
+  std::string ended;
+  ended.reserve(text.size() + text.size() / 16);
+  for (const char c : text) {
+    if (c == '\n') ended += '\r';
+    ended += c;
+  }
+  return ended;
+}
+
+Replanned with_plain_line_ends(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request,
+                               const Progress& progress) {
+  std::string text = *print.text;
+  std::erase(text, '\r');
+  Replanned result = replanned(read_gcode(std::move(text), print.name), machine, request, progress);
+  result.text = with_windows_line_ends(result.text);
+  return result;
+}
+
 }  // namespace
 
 Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request,
                     const Progress& progress) {
+  if (has_windows_line_ends(*print.text)) return with_plain_line_ends(print, machine, request, progress);
   if (std::string_view(*print.text).substr(0, head_bytes).find(replanned_mark) != std::string_view::npos)
     return unchanged(print, "it was re-planned before");
   require_known_dialect(print);

@@ -52,6 +52,16 @@ TEST_P(ReplanDialects, WithOrderAndTravelKeptMakeTheSameMoves) {
   EXPECT_EQ(moving(text), moving(replanned_text(text, {.keeps_order = true}).text));
 }
 
+TEST_P(ReplanDialects, KeepTheLineEndsOfWindows) {
+  const auto for_windows = [](const std::string& text) {
+    std::string ended;
+    for (const char c : text) ended += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    return ended;
+  };
+  const std::string text = fixture(std::string(GetParam()) + ".gcode");
+  EXPECT_EQ(replanned_text(for_windows(text)).text, for_windows(replanned_text(text).text));
+}
+
 TEST_P(ReplanDialects, PlannedAgainStayAsTheyAre) {
   const std::string once = replanned_text(fixture(std::string(GetParam()) + ".gcode")).text;
   const Replanned again = replanned_text(once);
