@@ -16,7 +16,8 @@ namespace {
 
 constexpr double same_share = 1e-4;
 constexpr double rounding_mm = 0.01;  // of filament
-constexpr double seam_share = 0.02;   // of the roads' cells at most differ, where seams moved
+constexpr double seam_share = 0.02;   // of the roads' cells at most differ, where seams moved,
+constexpr double seam_mm = 0.1;       // or so much of each run
 
 using ToolRole = std::pair<int, Role>;
 
@@ -115,6 +116,13 @@ Cells cells(const GcodePrint& print, const std::set<Role>& without, double cell_
   return all;
 }
 
+/// Roads that follow no other one.
+int runs_of(const GcodePrint& print) {
+  int runs = 0;
+  for (std::size_t i = 1; i < print.moves.size(); ++i) runs += lays_plastic(print, i) && !lays_plastic(print, i - 1);
+  return runs;
+}
+
 /// How much road the cells have that the others do not have.
 double beyond_mm(const LayerCells& all, const LayerCells& others) {
   double sum = 0;
@@ -179,7 +187,7 @@ std::optional<std::string> difference(const GcodePrint& before, const GcodePrint
   parallel_for(2, options.threads,
                [&](int i) { (i == 0 ? old_cells : new_cells) = cells(i == 0 ? before : after, without, cell_mm); });
   const double all = sum_mm(old_cells), lost = beyond_mm(old_cells, new_cells), added = beyond_mm(new_cells, old_cells);
-  if (std::max(lost, added) > seam_share * all)
+  if (std::max(lost, added) > std::max(seam_share * all, seam_mm * runs_of(before)))
     return fmt::format("{:.1f} mm of road are missing and {:.1f} mm were not there, of {:.0f} mm", lost, added, all);
   if (const auto line = starved_line(after))
     return fmt::format("line {} would lay plastic while filament is drawn back", *line);
