@@ -14,8 +14,10 @@
 #include "replan/dialect_words.hpp"
 #include "replan/found_roles.hpp"
 #include "replan/heaters.hpp"
+#include "replan/kept_print.hpp"
 #include "replan/kept_shield.hpp"
 #include "replan/planning.hpp"
+#include "replan/planning_config.hpp"
 #include "replan/removed.hpp"
 #include "replan/same_print.hpp"
 #include "replan/written.hpp"
@@ -42,7 +44,7 @@ Attempts::Attempts(const GcodePrint& print, const AuditMachine& machine, const R
       request_(request),
       progress_(progress),
       config_(planning_config(print, machine, request.printer ? &*request.printer : nullptr)) {
-  if (request.protection == ReplanProtection::none || request.keeps_order) config_.rampart = RampartShape::off;
+  if (request.protection == ReplanProtection::none) config_.rampart = RampartShape::off;
   if (request.protection != ReplanProtection::full) config_.planner = Planner::plain;
   if (print.facts.dialect == Dialect::slic3r && !tells_roles(print)) {
     if (request.removes_shield)
@@ -53,30 +55,45 @@ Attempts::Attempts(const GcodePrint& print, const AuditMachine& machine, const R
   recovered_ = recovered_print(source());
   if (request.removes_shield) removed_ = remove_shield(recovered_, source());
   if (request.removes_tower) removed_.merge(remove_tower(recovered_, source()));
+  if (request.keeps_order) return;
   progress.advance("regions", 0);
   scene_ = scene_of(recovered_, source(), machine, request.keeps_seams, request.threads);
+  if (config_.planner == Planner::plain) return;
+  std::vector<double> height_mm;
+  for (const Slab& slab : scene_.storeys.part.slabs) height_mm.push_back(slab.height_mm);
+  visibility_.emplace(scene_.storeys.part.outlines, height_mm, SurfaceVisibilityOptions{.threads = request.threads},
+                      progress);
+}
+
+GcodePrint Attempts::read(std::string text) const {
+  GcodePrint made = read_gcode(std::move(text), print_.name);
+  const DialectWords& words = *words_of(print_);
+  if (!words.times_heaters || !sets_temperatures(recovered_, print_)) return made;
+  return read_gcode(with_heaters(recovered_, print_, made, machine_, words.layer_begins.front()), print_.name);
 }
 
 Attempt Attempts::planned(RampartExtent extent) const {
   Attempt made;
   Progress own = progress_;
   own.warn = [&](const std::string& warning) { made.warnings.push_back(warning); };
+  std::string text;
   {
-    const ReplannedLayers planned =
-        planned_layers(scene_, recovered_, source(), machine_, config_,
-                       {.plans = !request_.keeps_order, .rampart = extent, .threads = request_.threads}, own);
+    const ReplanOptions options{
+        .visibility = visibility_ ? &*visibility_ : nullptr, .rampart = extent, .threads = request_.threads};
+    const ReplannedLayers planned = planned_layers(scene_, recovered_, source(), machine_, config_, options, own);
     progress_.advance("writing", 0);
     made.has_rampart = planned.has_rampart;
     made.stands_apart = planned.stands_apart;
-    made.text = written(recovered_, source(), machine_, config_, planned.layers,
-                        {.as_in_file = request_.keeps_order, .header = header_line(request_, planned.has_rampart)});
+    text = written(recovered_, source(), machine_, config_, planned.layers, header_line(request_, planned.has_rampart));
   }
-  made.print = read_gcode(made.text, print_.name);
-  const DialectWords& words = *words_of(print_);
-  if (words.times_heaters && sets_temperatures(recovered_, print_)) {
-    made.text = with_heaters(recovered_, print_, made.print, machine_, words.layer_begins.front());
-    made.print = read_gcode(made.text, print_.name);
-  }
+  made.print = read(std::move(text));
+  return made;
+}
+
+Attempt Attempts::kept() const {
+  Attempt made;
+  made.print = read(written_as_in_file(recovered_, source(), config_, header_line(request_, false)));
+  require_same(made.print);
   return made;
 }
 
@@ -149,11 +166,9 @@ std::optional<Attempt> Attempts::best() const {
 }
 
 std::string Attempts::advice() const {
-  const bool has_tower = recovered_.keeps_tools && !request_.removes_tower;
-  const auto shield = shield_runs(recovered_, source());
-  const bool has_shield =
-      !request_.removes_shield && std::ranges::any_of(shield, [](const auto& runs) { return !runs.empty(); });
-  if (!has_tower && !has_shield) return {};
+  const bool has_tower = std::ranges::any_of(
+      scene_.stops, [](const std::vector<Stop>& stops) { return std::ranges::any_of(stops, &Stop::lays); });
+  const bool has_shield = scene_.has_shield;
   const char* options = !has_shield  ? "--remove-tower makes"
                         : !has_tower ? "--remove-shield makes"
                                      : "--remove-tower and --remove-shield make";

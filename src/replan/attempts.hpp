@@ -13,6 +13,7 @@
 #include "replan/replan.hpp"
 #include "replan/scene.hpp"
 #include "replan/worth.hpp"
+#include "visibility/visibility.hpp"
 
 namespace cleancolor {
 
@@ -21,8 +22,7 @@ inline constexpr std::string_view replanned_mark = "; replanned by cleancolor ";
 
 /// The print as one plan makes it.
 struct Attempt {
-  std::string text;
-  GcodePrint print;
+  GcodePrint print = {};  // with its text
   bool has_rampart = false, stands_apart = false;
   Cleanness before = {}, cleanness = {};   // where it was judged: of the file, of this
   std::vector<std::string> warnings = {};  // that hold for this one
@@ -34,13 +34,16 @@ class Attempts {
   Attempts(const GcodePrint& print, const AuditMachine& machine, const ReplanRequest& request,
            const Progress& progress);
 
-  /// Throws Error where the result would not be the same print.
+  /// In the file's own order, on its own ways. Throws Error where the result would not be the same print.
+  Attempt kept() const;
+
+  /// Throws likewise.
   Attempt with(RampartExtent extent) const;
 
   /// The one that costs least, judged; nothing where the file itself does.
   std::optional<Attempt> best() const;
 
-  bool tells_progress() const { return !recovered_.progress_line.empty() || recovered_.elapsed_lines > 0; }
+  bool tells_progress() const { return !recovered_.progress_line.empty() || recovered_.tells_elapsed; }
 
   /// What the user may try where nothing is handed out; begins with a comma, or is empty.
   std::string advice() const;
@@ -51,6 +54,7 @@ class Attempts {
  private:
   Attempt planned(RampartExtent extent) const;
   Attempt judged(RampartExtent extent) const;
+  GcodePrint read(std::string text) const;
   void require_same(const GcodePrint& made) const;
   const GcodePrint& source() const { return with_roles_ ? *with_roles_ : print_; }
 
@@ -61,7 +65,8 @@ class Attempts {
   Config config_;
   std::optional<GcodePrint> with_roles_;  // where the file tells none
   RecoveredPrint recovered_;
-  Scene scene_;
+  Scene scene_;  // but where the order is kept
+  std::optional<SurfaceVisibility> visibility_;
   RemovedFilament removed_;
 };
 

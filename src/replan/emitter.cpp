@@ -1,5 +1,7 @@
 #include "replan/emitter.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -23,16 +25,20 @@ void put(std::string& text, char letter, std::int64_t value) {
 
 }  // namespace
 
-Emitter::Emitter(const RecoveredPrint& recovered, const DialectWords& words, const Config& config, std::string start)
+Emitter::Emitter(const RecoveredPrint& recovered, const GcodePrint& print, const Config& config,
+                 const std::string& header)
     : recovered_(recovered),
-      words_(words),
+      print_(print),
+      words_(*words_of(print)),
       config_(config),
-      text_(std::move(start)),
+      text_(print.text->substr(0, recovered.begin)),
       state_(recovered.states[recovered.begin_state]),
       tool_(recovered.begin_tool),
       z_um_(std::llround(recovered.begin_z_mm * 1e3)),
       count_e5_(recovered.begin_count_e5),
-      drawn_back_e5_(recovered.begin_drawn_back_e5) {}
+      drawn_back_e5_(recovered.begin_drawn_back_e5) {
+  if (!header.empty()) text_.insert(std::min(text_.find('\n'), text_.size() - 1) + 1, header + "\n");
+}
 
 void Emitter::line(std::string_view text) {
   text_ += text;
@@ -63,6 +69,12 @@ void Emitter::forget(std::string_view key) {
 void Emitter::begin_layer(std::span<const std::string> lines) {
   ++layers_;
   header(lines);
+  for (const std::string& text : {recovered_.progress_line, recovered_.silent_progress_line})
+    if (!text.empty()) line(text);  // its numbers come later
+}
+
+void Emitter::end_layer() {
+  if (recovered_.tells_elapsed) line(fmt::format("{}0", words_.elapsed));  // likewise
 }
 
 void Emitter::header(std::span<const std::string> all) {
@@ -286,6 +298,8 @@ void Emitter::fixed(const FixedLines& all) {
 }
 
 std::string Emitter::finish() {
+  draw_back(recovered_.end_drawn_back_e5);
+  set_known(recovered_.end_state);
   if (!recovered_.relative_e && count_e5() != recovered_.end_count_e5) {
     text_ += "G92";
     const char axis = !recovered_.e_of_each_tool ? 'E' : tool_ == 0 ? 'A' : 'B';
@@ -297,6 +311,7 @@ std::string Emitter::finish() {
     put_feed(recovered_.end_feed_mm_min);
     end_line();
   }
+  text_ += std::string_view(*print_.text).substr(recovered_.end);
   return std::move(text_);
 }
 

@@ -22,14 +22,14 @@ namespace cleancolor {
 
 class Emitter {
  public:
-  /// As the file leaves the printer where its layers begin.
-  Emitter(const RecoveredPrint& recovered, const DialectWords& words, const Config& config, std::string start);
+  /// What stands before the layers, with our line behind the first one, and the printer as it leaves it.
+  /// header: our line, without its end.  Requires: the dialect is known (words_of).
+  Emitter(const RecoveredPrint& recovered, const GcodePrint& print, const Config& config, const std::string& header);
 
   int tool() const { return tool_; }
   bool is_known() const { return known_; }
   bool is_lifted() const { return lift_um_ > 0 || rises_by_um_ > 0; }
   FilePoint at() const { return at_; }
-  const ModalState& state() const { return state_; }
 
   void line(std::string_view text);
   void lines(std::span<const std::string> all);
@@ -38,6 +38,7 @@ class Emitter {
   void forget(std::string_view key);    // it is told anew
 
   void begin_layer(std::span<const std::string> header);
+  void end_layer();
 
   void travel(FilePoint to);
   void travel(FilePoint to, std::int64_t z_um);
@@ -63,7 +64,7 @@ class Emitter {
   void wipe(std::span<const WipeMove> moves);
   std::int64_t drawn_back_e5() const { return drawn_back_e5_[std::size_t(tool_)]; }
 
-  /// E and speed as the rest of the file takes them for given.
+  /// With the rest of the file, and all as it takes it for given.
   std::string finish();
 
  private:
@@ -82,6 +83,7 @@ class Emitter {
   const Extruder& extruder() const { return config_.extruders[std::size_t(tool_)]; }
 
   const RecoveredPrint& recovered_;
+  const GcodePrint& print_;
   const DialectWords& words_;
   const Config& config_;
   std::string text_;

@@ -108,7 +108,8 @@ std::size_t behind_last_way(std::string_view text, std::size_t at, const Dialect
 LayersText layers_text(const GcodePrint& print, const DialectWords& words) {
   const std::string_view text = *print.text, mark = words.layer_begins.front();
   if (text.find('\r') != text.npos)
-    refuse_line(print, text.find('\r'), "some lines end with CR, others do not; save the file with line ends of one kind");
+    refuse_line(print, text.find('\r'),
+                "some lines end with CR, others do not; save the file with line ends of one kind");
   std::size_t first = text.npos;
   for (const std::string_view begins : words.layer_begins)
     if (!begins.empty()) first = std::min(first, text.find(fmt::format("\n{}", begins)));

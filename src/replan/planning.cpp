@@ -28,20 +28,6 @@
 namespace cleancolor {
 namespace {
 
-struct RefusedOption {
-  std::string_view key;
-  std::string_view reason;
-};
-constexpr RefusedOption refused_options[] = {
-    {"spiral_vase", "vase mode is one road from bottom to top; there is nothing to put in order"},
-    {"single_extruder_multi_material", "filament changes in one nozzle, so that no idle nozzle can ooze"},
-    {"use_firmware_retraction", "the firmware draws filament back; switch it off in the slicer"},
-    {"use_volumetric_e", "E in mm3 is not re-planned yet; switch it off in the slicer"},
-    {"infill_first", "infill before perimeters is not re-planned yet; switch it off in the slicer"},
-    {"wall_sequence",
-     "outer walls between inner ones are not re-planned; print them from the inside out or the outside in"},
-};
-
 bool is_support(Role role) {
   return role == Role::support || role == Role::support_interface;
 }
@@ -196,177 +182,169 @@ double columns_apart_mm(const Config& config) {
               config.extruders.front().nozzle_diameter_mm);
 }
 
-/// What slicers do without colour protection, to compare.
-std::vector<Layer> in_plain_order(const Scene& scene, const PrintedRampart& rampart, const RecoveredPrint& recovered,
-                                  const Config& config) {
-  OrderState state{.extruder = recovered.layers.front().runs.front().tool, .at = {}, .seams = {}};
-  std::vector<Layer> layers = scene.layers;
-  for (Layer& layer : layers) {
-    const std::vector<Stop>& stops = scene.stops[std::size_t(layer.index)];
-    std::vector<Layer> parts = parts_of(with_walls(std::move(layer), scene, rampart, recovered, config), stops);
-    layer = parts.front();
-    layer.paths.clear();
-    for (Layer& part : parts) {
-      if (scene.has_shield || !stops.empty()) state.extruder = part.paths.front().extruder;
-      order(part, state, config, rampart.site(int(scene.storeys.of_layer[std::size_t(layer.index)])));
-      std::ranges::move(part.paths, std::back_inserter(layer.paths));
+class Planning {
+ public:
+  Planning(const Scene& scene, const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
+           Config config, const ReplanOptions& options, const Progress& progress)
+      : scene_(scene),
+        recovered_(recovered),
+        print_(print),
+        machine_(machine),
+        config_(std::move(config)),
+        options_(options),
+        progress_(progress),
+        extruders_(extruders_by_layer(scene)),
+        use_(use_of(scene, extruders_)) {
+    if (use_.extruders.size() < 2)
+      throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));
+    choose_what_is_walled();
+    make_rampart();
+  }
+
+  ReplannedLayers result() && {
+    if (options_.visibility == nullptr) return {in_plain_order(), !rampart_->empty(), stands_apart_};
+    return {in_clean_order(), !rampart_->empty(), stands_apart_};
+  }
+
+ private:
+  void choose_what_is_walled() {
+    const double apart_mm = columns_apart_mm(config_);
+    around_ = without_columns_beside(scene_.storeys.around, scene_.storeys.part, apart_mm);
+    stands_apart_ = columns(around_, apart_mm).size() > 1;
+    if (options_.rampart == RampartExtent::all) return;
+    std::optional<Slices> column;
+    if (options_.rampart == RampartExtent::column) column = shortest_column(around_, apart_mm);
+    if (column)
+      around_ = std::move(*column);
+    else
+      config_.rampart = RampartShape::off;
+  }
+
+  void make_rampart() {
+    try {
+      rampart_.emplace(around_, use_, config_, options_.threads);
+      if (!meets_skirts(scene_, *rampart_)) return;
+      around_ = around_skirts(scene_);
+      rampart_.emplace(around_, use_, config_, options_.threads);
+    } catch (const Error& fault) {
+      std::string_view what = fault.what();
+      if (what.ends_with(room_advice)) what.remove_suffix(room_advice.size());
+      progress_.warn(fmt::format("{}: {}; it is re-planned without a rampart", print_.name, what));
+      config_.rampart = RampartShape::off;
+      rampart_.emplace(around_, use_, config_, options_.threads);
     }
   }
-  return layers;
-}
 
-}  // namespace
-
-namespace {
-
-/// Whether the option keeps nozzles from being lifted in some of the print's layers; 0 says nothing.
-bool lifts_in_some_layers(const IniEntry& entry, const GcodePrint& print) {
-  if (entry.key == "retract_lift_top") return entry.value.find("All ") == std::string::npos;
-  const bool above = entry.key == "retract_lift_above", below = entry.key == "retract_lift_below";
-  if (!above && !below) return false;
-  for (std::string_view rest = entry.value; !rest.empty();) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    const double z_mm = number<double>(trimmed(rest.substr(0, comma))).value_or(0);
-    if (z_mm > 0 && (above ? z_mm > print.layers.front().z_mm : z_mm < print.layers.back().z_mm)) return true;
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
-  }
-  return false;
-}
-
-/// The printer's, and over it what the configuration block of the file says.
-Config told_config(const GcodePrint& print, const Config* printer) {
-  if (print.facts.config.empty() || print.facts.config_kind.empty())
-    throw Error(
-        fmt::format("{}: it has no configuration block at its end; it is not known how far filament is drawn "
-                    "back. Export the G-code again with it",
-                    print.name));
-  std::vector<IniEntry> told = print.facts.config_kind == "orcaslicer"       ? from_orca(print.facts.config)
-                               : print.facts.dialect == Dialect::superslicer ? from_superslicer(print.facts.config)
-                                                                             : print.facts.config;
-  for (const IniEntry& entry : told)
-    for (const RefusedOption& option : refused_options)
-      if (entry.key == option.key && is_set(entry.value))
-        throw Error(fmt::format("{}: {} = {}: {}", print.name, entry.key, entry.value, option.reason));
-  for (const IniEntry& entry : told)
-    if (lifts_in_some_layers(entry, print))
-      throw Error(fmt::format("{}: {} = {}: lifting in some layers only is not re-planned yet; switch it off",
-                              print.name, entry.key, entry.value));
-  std::erase_if(told, [](const IniEntry& entry) { return entry.key == "skirt_height"; });  // -1 of Slic3r: all layers
-  return with_ini(printer != nullptr ? *printer : Config{}, told, print.name).config;
-}
-
-}  // namespace
-
-Config planning_config(const GcodePrint& print, const AuditMachine& machine, const Config* printer) {
-  Config config =
-      print.facts.dialect == Dialect::cura ? cura_config(print, machine, printer) : told_config(print, printer);
-  const std::size_t nozzles = machine.nozzles.size();
-  while (config.extruders.size() < nozzles) config.extruders.push_back(config.extruders.back());
-  config.extruders.resize(nozzles);
-  for (std::size_t n = 0; n < nozzles; ++n) config.extruders[n].nozzle_offset_mm = machine.nozzles[n].offset_mm;
-  config.offsets_in = machine.offsets_in;
-  config.idle_nozzle = machine.idle_nozzle;
-  config.planner = Planner::clean;
-  config.seam_position = SeamPosition::hidden;
-  config.join_perimeters = true;
-  config.heater_off_after_last_use = false;   // the file's own temperatures hold
-  config.rampart = RampartShape::conforming;  // walls that wipe and fill, be it after a tool was parked
-  config.refill_mode = RefillMode::model;
-  return config;
-}
-
-ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recovered, const GcodePrint& print,
-                               const AuditMachine& machine, Config config, const ReplanOptions& options,
-                               const Progress& progress) {
-  if (!options.plans) {
-    std::vector<Layer> layers = scene.layers;
-    for (std::size_t k = 0; k < layers.size(); ++k)
-      for (std::size_t i = 0; i < layers[k].paths.size(); ++i) {
-        Path& path = layers[k].paths[i];
-        path.closed = false;  // begun where the file begins it
-        for (const FilePoint p : recovered.layers[k].runs[i].way)
-          path.travel.push_back(place_mm(p, path.extruder, machine));
+  /// What slicers do without colour protection, to compare.
+  std::vector<Layer> in_plain_order() const {
+    OrderState state{.extruder = recovered_.layers.front().runs.front().tool, .at = {}, .seams = {}};
+    std::vector<Layer> layers = scene_.layers;
+    for (Layer& layer : layers) {
+      const std::vector<Stop>& stops = scene_.stops[std::size_t(layer.index)];
+      std::vector<Layer> parts = parts_of(with_walls(std::move(layer), scene_, *rampart_, recovered_, config_), stops);
+      layer = parts.front();
+      layer.paths.clear();
+      for (Layer& part : parts) {
+        if (scene_.has_shield || !stops.empty()) state.extruder = part.paths.front().extruder;
+        order(part, state, config_, rampart_->site(storey_of(layer.index)));
+        std::ranges::move(part.paths, std::back_inserter(layer.paths));
       }
-    return {std::move(layers)};
-  }
-  const std::vector<std::vector<int>> extruders = extruders_by_layer(scene);
-  const Use use = use_of(scene, extruders);
-  if (use.extruders.size() < 2)
-    throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));
-  const double apart_mm = columns_apart_mm(config);
-  Slices around = without_columns_beside(scene.storeys.around, scene.storeys.part, apart_mm);
-  const bool stands_apart = columns(around, apart_mm).size() > 1;
-  std::optional<Slices> column;
-  if (options.rampart == RampartExtent::column) column = shortest_column(around, apart_mm);
-  if (column) around = std::move(*column);
-  if (options.rampart != RampartExtent::all && !column) config.rampart = RampartShape::off;
-  std::optional<PrintedRampart> rampart;
-  try {
-    rampart.emplace(around, use, config, options.threads);
-    if (meets_skirts(scene, *rampart)) {
-      around = around_skirts(scene);
-      rampart.emplace(around, use, config, options.threads);
     }
-  } catch (const Error& fault) {
-    std::string_view what = fault.what();
-    if (what.ends_with(room_advice)) what.remove_suffix(room_advice.size());
-    progress.warn(fmt::format("{}: {}; it is re-planned without a rampart", print.name, what));
-    config.rampart = RampartShape::off;
-    rampart.emplace(around, use, config, options.threads);
+    return layers;
   }
-  std::vector<double> height_mm;
-  for (const Slab& slab : scene.storeys.part.slabs) height_mm.push_back(slab.height_mm);
-  if (config.planner == Planner::plain) return {in_plain_order(scene, *rampart, recovered, config), !rampart->empty()};
-  const SurfaceVisibility visibility(scene.storeys.part.outlines, height_mm, {.threads = options.threads}, progress);
-  const int first = recovered.layers.front().runs.front().tool;
-  std::vector<int> first_of_layer = first_extruders(extruders, first);
-  if (scene.has_shield || recovered.keeps_tools)
-    for (std::size_t k = 0; k < first_of_layer.size(); ++k) first_of_layer[k] = recovered.layers[k].runs.front().tool;
 
-  const std::vector<Polygons> reach = reaches(scene, config);
-  const int count = int(scene.layers.size());
-  std::vector<std::optional<StagedLayer>> planned{std::size_t(count)};
-  std::vector<Layer> result;
-  Path below;
-  LeadOptions leads;
-  for (int e = 0; e < int(config.extruders.size()); ++e) leads.hop.push_back(hop_time(config, e));
-  const int walled = walled_layers(scene.layers, leads.ooze);
-  const auto plan = [&](int k) {
-    const std::size_t storey = scene.storeys.of_layer[std::size_t(k)];
-    const PackedPolygons& outline = scene.storeys.part.outlines[storey];
-    Layer layer = scene.layers[std::size_t(k)];
-    if (k < walled) layer = with_walls(std::move(layer), scene, *rampart, recovered, config);
-    PlanScene own = plan_scene(scene.storeys.part, use, config, *rampart, int(storey));
-    if (k >= walled) own.site = {};
+  std::vector<Layer> in_clean_order() {
+    first_of_layer_ = first_extruders(extruders_, recovered_.layers.front().runs.front().tool);
+    if (scene_.has_shield || recovered_.keeps_tools)
+      for (std::size_t k = 0; k < first_of_layer_.size(); ++k)
+        first_of_layer_[k] = recovered_.layers[k].runs.front().tool;
+    for (int e = 0; e < int(config_.extruders.size()); ++e) leads_.hop.push_back(hop_time(config_, e));
+    reach_ = reaches(scene_, config_);
+    walled_ = walled_layers(scene_.layers, leads_.ooze);
+    const int count = int(scene_.layers.size());
+    planned_.resize(std::size_t(count));
+    run({.count = count,
+         .window = 3 * options_.threads + 4,
+         .stages = {{0, [&](int k) { plan(k); }}},
+         .consume =
+             [&](int k) {
+               take(k);
+               progress_.advance("planning", double(k + 1) / count);
+             }},
+        options_.threads);
+    return std::move(result_);
+  }
+
+  int storey_of(int layer) const { return int(scene_.storeys.of_layer[std::size_t(layer)]); }
+
+  void plan(int k) {
+    const PackedPolygons& outline = scene_.storeys.part.outlines[std::size_t(storey_of(k))];
+    Layer layer = scene_.layers[std::size_t(k)];
+    if (k < walled_) layer = with_walls(std::move(layer), scene_, *rampart_, recovered_, config_);
+    PlanScene own = plan_scene(scene_.storeys.part, use_, config_, *rampart_, storey_of(k));
+    own.reach = reach_;
+    if (k >= walled_) own.site = {};
     if (!own.site.part.empty()) own.site.part = outline;
-    if (scene.has_shield) own.site = {use.hot(int(storey), config), outline};
-    planned[std::size_t(k)].emplace(std::move(layer), first_of_layer[std::size_t(k)], scene.stops[std::size_t(k)],
-                                    config, own, visibility);
-  };
-  const auto take = [&](int k) {
-    if (progress.interrupted()) throw Error("interrupted");
-    std::optional<StagedLayer>& own = planned[std::size_t(k)];
-    if (!own->arrive_from(below))
+    if (scene_.has_shield) own.site = {use_.hot(storey_of(k), config_), outline};
+    planned_[std::size_t(k)].emplace(std::move(layer), first_of_layer_[std::size_t(k)], scene_.stops[std::size_t(k)],
+                                     config_, own, *options_.visibility);
+  }
+
+  void take(int k) {
+    if (progress_.interrupted()) throw Error("interrupted");
+    std::optional<StagedLayer>& own = planned_[std::size_t(k)];
+    if (!own->arrive_from(below_))
       throw Error(
           fmt::format("{}: layer {}: tools do not change in the order that is planned; such files are not "
                       "re-planned yet",
-                      print.name, k + 1));
+                      print_.name, k + 1));
     Path last = own->last();
-    Layer layer = with_loops_apart(std::move(*own).release(), recovered.layers[std::size_t(k)], print, machine, leads);
-    const std::size_t storey = scene.storeys.of_layer[std::size_t(k)];
-    const auto regions_of = [&](std::size_t s) { return unpacked(scene.storeys.part.regions[s]); };
-    const Path* before = below.points.empty() ? nullptr : &below;
-    layer = with_leads(std::move(layer), regions_of(storey), before, leads);
-    if (config.idle_nozzle != IdleNozzle::same_height && scene.stops[std::size_t(k)].empty())
-      layer = with_change_places(std::move(layer), regions_of(storey),
-                                 storey > 0 ? regions_of(storey - 1) : std::vector<Polygons>{}, before);
-    result.push_back(std::move(layer));
-    below = std::move(last);
+    Layer layer =
+        with_loops_apart(std::move(*own).release(), recovered_.layers[std::size_t(k)], print_, machine_, leads_);
     own.reset();
-    progress.advance("planning", double(k + 1) / count);
-  };
-  run({.count = count, .window = 3 * options.threads + 4, .stages = {{0, plan}}, .consume = take}, options.threads);
-  return {std::move(result), !rampart->empty(), stands_apart};
+    const Path* before = below_.points.empty() ? nullptr : &below_;
+    const std::vector<Polygons> regions = regions_of(storey_of(k));
+    layer = with_leads(std::move(layer), regions, before, leads_);
+    if (config_.idle_nozzle != IdleNozzle::same_height && scene_.stops[std::size_t(k)].empty())
+      layer = with_change_places(std::move(layer), regions, regions_of(storey_of(k) - 1), before);
+    result_.push_back(std::move(layer));
+    below_ = std::move(last);
+  }
+
+  /// None below the first storey.
+  std::vector<Polygons> regions_of(int storey) const {
+    if (storey < 0) return {};
+    return unpacked(scene_.storeys.part.regions[std::size_t(storey)]);
+  }
+
+  const Scene& scene_;
+  const RecoveredPrint& recovered_;
+  const GcodePrint& print_;
+  const AuditMachine& machine_;
+  Config config_;
+  const ReplanOptions& options_;
+  const Progress& progress_;
+  std::vector<std::vector<int>> extruders_;  // of each layer
+  Use use_;
+  Slices around_;  // what is walled
+  bool stands_apart_ = false;
+  std::optional<PrintedRampart> rampart_;
+
+  std::vector<int> first_of_layer_;  // extruders
+  std::vector<Polygons> reach_;      // of each extruder
+  LeadOptions leads_;
+  int walled_ = 0;  // layers
+  std::vector<std::optional<StagedLayer>> planned_;
+  std::vector<Layer> result_;
+  Path below_;  // printed last, in the layer before
+};
+
+}  // namespace
+
+ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recovered, const GcodePrint& print,
+                               const AuditMachine& machine, const Config& config, const ReplanOptions& options,
+                               const Progress& progress) {
+  return Planning(scene, recovered, print, machine, config, options, progress).result();
 }
 
 }  // namespace cleancolor

@@ -17,16 +17,12 @@
 #include "replan/scene.hpp"
 #include "replan/worth.hpp"
 #include "toolpath/path.hpp"
+#include "visibility/visibility.hpp"
 
 namespace cleancolor {
 
-/// What the planner must know of printer and print: the profile, over it the file's configuration block, over both
-/// where nozzles are and that paths stay as they are.
-/// Throws Error where the file has no configuration, or one whose print cannot be re-planned; it says what to do.
-Config planning_config(const GcodePrint& print, const AuditMachine& machine, const Config* printer);
-
 struct ReplanOptions {
-  bool plans = true;  // false: order, starts and ways stay those of the file
+  const SurfaceVisibility* visibility = nullptr;  // of the scene; none: in the order of slicers without protection
   RampartExtent rampart = RampartExtent::all;
   int threads = 1;
 };
@@ -41,7 +37,7 @@ struct ReplannedLayers {
 /// Without room for the rampart it is left out, with a warning; one around a column where there is but one is left out,
 /// too. Same result for any number of threads.
 ReplannedLayers planned_layers(const Scene& scene, const RecoveredPrint& recovered, const GcodePrint& print,
-                               const AuditMachine& machine, Config config, const ReplanOptions& options,
+                               const AuditMachine& machine, const Config& config, const ReplanOptions& options,
                                const Progress& progress);
 
 }  // namespace cleancolor

@@ -133,7 +133,7 @@ class Recovery {
   void comment() {
     if (!line_.has_comment || in_.raw() == words_.wipe_begins || in_.raw() == words_.wipe_ends) return;
     if (!words_.elapsed.empty() && in_.raw().starts_with(words_.elapsed)) {
-      ++r_.elapsed_lines;
+      r_.tells_elapsed = true;
       return;
     }
     if (std::ranges::find(words_.of_ways, in_.raw()) != words_.of_ways.end()) return;

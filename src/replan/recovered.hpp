@@ -4,10 +4,10 @@
 //
 //   text and moves  ->  start | layers: header, runs with all that held while they were printed | end; tool changes
 //
-// A run is what one nozzle extrudes without a break. Travel, drawing back and tool changes between runs are not kept as
-// they are: they are made anew. Lines that set something until it is set again (replan/modal.hpp) become the state that
-// each road is printed under. A tool change is the lines that the file has for it, the same each time. All other lines
-// stay: where they cannot be kept in their place for sure, the file is refused.
+// A run is what one nozzle extrudes without a break, with the way to it and what follows it. Where the print is planned
+// anew, travel, drawing back and tool changes are made anew. Lines that set something until it is set again
+// (replan/modal.hpp) become the state that each road is printed under. A tool change is the lines that the file has for
+// it, the same each time. All other lines stay: where they cannot be kept in their place for sure, the file is refused.
 //
 // Places are the file's own, in whole micrometres, and filament in 1e-5 mm, so that nothing drifts.
 #pragma once
@@ -135,8 +135,8 @@ struct RecoveredPrint {
   double end_feed_mm_min = 0;
   std::string progress_line;         // the first M73 P among the layers, which are told anew; empty: there are none
   std::string silent_progress_line;  // likewise, M73 Q: of the printer's quiet mode
+  bool tells_elapsed = false;        // the time so far, likewise
   bool drives_otherwise = false;     // ways have accelerations of their own, told before each
-  std::size_t elapsed_lines = 0;     // likewise, of the time so far
   double change_lift_mm = 0;         // of a nozzle before another one takes over
   double lift_slope = 0;             // mm a mm of way on which nozzles are lifted; 0: they are lifted on the spot
 };

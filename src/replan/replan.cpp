@@ -90,7 +90,9 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   require_whole(print);
   const Attempts attempts(print, machine, request, progress);
   const bool judges = request.protection == ReplanProtection::full && !request.keeps_order;
-  std::optional<Attempt> made = judges ? attempts.best() : attempts.with(RampartExtent::all);
+  std::optional<Attempt> made = judges                ? attempts.best()
+                                : request.keeps_order ? attempts.kept()
+                                                      : attempts.with(RampartExtent::all);
   if (!made)
     return unchanged(print, "re-planned it would come out no cleaner than the time is worth" + attempts.advice());
   if (print.facts.dialect == Dialect::cura && !request.printer && made->has_rampart)
@@ -107,7 +109,7 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   result.time_s = time.print_time_s;
   const double told_share =
       print.facts.told_time_s > 0 && result.old_time_s > 0 ? print.facts.told_time_s / result.old_time_s : 1;
-  result.text = attempts.tells_progress() ? with_progress(made->print, time, told_share) : std::move(made->text);
+  result.text = attempts.tells_progress() ? with_progress(made->print, time, told_share) : *made->print.text;
   if (!request.keeps_order) correct_filament(result.text, print, made->print);
   if (result.old_time_s > 0) correct_estimates(result.text, print, result.time_s / result.old_time_s);
   return result;

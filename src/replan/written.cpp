@@ -13,7 +13,6 @@
 #include "gcode/polyline.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/emitter.hpp"
-#include "replan/kept_ways.hpp"
 #include "replan/pieces.hpp"
 #include "replan/scene.hpp"
 
@@ -88,19 +87,17 @@ Wipe wipe_after(const RecoveredRun& run, std::vector<Piece> pieces, bool closed)
 class Writing {
  public:
   Writing(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine, const Config& config,
-          const WriteOptions& options)
+          const std::string& header)
       : recovered_(recovered),
         print_(print),
         machine_(machine),
         config_(config),
-        options_(options),
         words_(*words_of(print)),
-        out_(recovered, words_, config, start_of_text()),
-        kept_(recovered, words_, config, out_),
+        out_(recovered, print, config, header),
         asked_mm_(config.extruders.size(), 0.),
         written_e5_(config.extruders.size(), 0) {
     find_plain_states();
-    if (!options.as_in_file) out_.forget(type_key);  // strokes and walls say theirs
+    out_.forget(type_key);  // strokes and walls say theirs
   }
 
   std::string text(const std::vector<Layer>& layers) {
@@ -110,22 +107,10 @@ class Writing {
       if (recovered_.prints_after_end) push_forward();
     }
     wipe(recovered_.end_drawn_back_e5);
-    out_.draw_back(recovered_.end_drawn_back_e5);
-    out_.set_known(recovered_.end_state);
-    std::string text = out_.finish();
-    text += print_.text->substr(recovered_.end);
-    return text;
+    return out_.finish();
   }
 
  private:
-  /// With our line behind the first one.
-  std::string start_of_text() const {
-    std::string start = print_.text->substr(0, recovered_.begin);
-    if (options_.header.empty()) return start;
-    start.insert(std::min(start.find('\n'), start.size() - 1) + 1, options_.header + "\n");
-    return start;
-  }
-
   /// Of each tool and layer the state of a wall: walls of the rampart are printed under it.
   void find_plain_states() {
     const std::size_t layers = recovered_.layers.size(), tools = config_.extruders.size();
@@ -186,9 +171,8 @@ class Writing {
     last_ = nullptr;
     std::vector<char> is_written(source.runs.size(), 0);
     out_.begin_layer(source.header);
-    for (const std::string& line : {recovered_.progress_line, recovered_.silent_progress_line})
-      if (!line.empty()) out_.line(line);  // its numbers come later
-    begin_layer(source);
+    if (extruder().retract_layer_change) draw_back();
+    out_.set_z(source.z_mm);
     for (std::size_t i = 0; i < planned.paths.size(); ++i) {
       const Path& path = planned.paths[i];
       if (path.source < 0) {
@@ -203,16 +187,10 @@ class Writing {
       }
       const RecoveredRun& run = source.runs.at(std::size_t(path.source));
       if (std::exchange(is_written[std::size_t(path.source)], char(1)) != 0) fail("a path is planned twice");
-      options_.as_in_file ? kept_path(run) : run.fixed ? fixed_path(path, run) : recovered_path(path, run);
+      run.fixed ? fixed_path(path, run) : recovered_path(path, run);
     }
-    if (recovered_.elapsed_lines > 0) out_.line(fmt::format("{}0", words_.elapsed));
+    out_.end_layer();
     if (std::ranges::find(is_written, 0) != is_written.end()) fail("a path is not planned");
-  }
-
-  void begin_layer(const RecoveredLayer& source) {
-    if (options_.as_in_file) return kept_.begin_layer(source);
-    if (extruder().retract_layer_change) draw_back();
-    out_.set_z(source.z_mm);
   }
 
   [[noreturn]] void fail(std::string_view what) const {
@@ -300,24 +278,6 @@ class Writing {
     out_.fixed(*run.fixed);
     last_ = nullptr;
     wipe_ = {};
-  }
-
-  /// As it is in the file, with the way there.
-  void kept_path(const RecoveredRun& run) {
-    kept_.go(run);
-    out_.lines(run.notes);
-    if (!run.fixed) {
-      kept_.begin_plastic();
-      for (const RunRoad& road : run.roads) {
-        out_.set_known(road.state);
-        out_.road(road.to, road.filament_e5 - road.at_end_e5, road.feed_mm_min, road.arc);
-        out_.road(road.to, road.at_end_e5, road.feed_mm_min);
-      }
-    } else {
-      if (run.fixed->lays) kept_.begin_plastic(), out_.set_known(run.fixed->state);
-      out_.fixed(*run.fixed);
-    }
-    kept_.leave(run);
   }
 
   /// The roads of the run as the path walks them.
@@ -435,10 +395,8 @@ class Writing {
   const GcodePrint& print_;
   const AuditMachine& machine_;
   const Config& config_;
-  const WriteOptions& options_;
   const DialectWords& words_;
   Emitter out_;
-  KeptWays kept_;
   std::size_t layer_ = 0;
   const RecoveredRun* last_ = nullptr;                   // printed last, in this layer
   Wipe wipe_;                                            // that the path printed last may be left with
@@ -451,8 +409,8 @@ class Writing {
 }  // namespace
 
 std::string written(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
-                    const Config& config, const std::vector<Layer>& layers, const WriteOptions& options) {
-  return Writing(recovered, print, machine, config, options).text(layers);
+                    const Config& config, const std::vector<Layer>& layers, const std::string& header) {
+  return Writing(recovered, print, machine, config, header).text(layers);
 }
 
 }  // namespace cleancolor

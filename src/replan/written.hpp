@@ -20,14 +20,10 @@
 
 namespace cleancolor {
 
-struct WriteOptions {
-  bool as_in_file = false;  // filament is drawn back where the file does, not where the way is long
-  std::string header;       // our line, without its end
-};
-
+/// header: our line, without its end.
 /// Throws Error where a planned path is none of the file's: a fault of the program, never of the file.
 /// Requires: layers are those of the recovered print, each with all of its runs.
 std::string written(const RecoveredPrint& recovered, const GcodePrint& print, const AuditMachine& machine,
-                    const Config& config, const std::vector<Layer>& layers, const WriteOptions& options);
+                    const Config& config, const std::vector<Layer>& layers, const std::string& header);
 
 }  // namespace cleancolor
