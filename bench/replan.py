@@ -109,8 +109,8 @@ def order(gcode):
 def order_faults(before, after):
     """Sentences on supports that come after the part, and on ironing in another order, where the file has it otherwise."""
     old, new = order(before), order(after)
-    late = [place for place in old if old[place][0] and not new[place][0]]
-    ironed = [place for place in old if old[place][1] is not None and old[place][1] != new[place][1]]
+    late = [place for place in old if old[place][0] and place in new and not new[place][0]]
+    ironed = [place for place in old if old[place][1] is not None and place in new and old[place][1] != new[place][1]]
     return ([f"nozzle {late[0][0]} prints supports after the part at z {late[0][1]}"] if late else []) + (
         [f"nozzle {ironed[0][0]} irons otherwise at z {ironed[0][1]}"] if ironed else [])
 
@@ -174,15 +174,17 @@ def replanned(program, gcode, variant, *added):
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     seconds = time.monotonic() - begin
     if done.returncode != 0:
-        return None, seconds, done.stderr.strip().rpartition(".gcode: ")[2].splitlines()[-1]
+        said = done.stderr.strip().rpartition(".gcode: ")[2].splitlines()
+        return None, seconds, said[-1] if said else f"exit code {done.returncode}"
     return output, seconds, ""
 
 
 def stays_as_it_is(program, gcode, variant):
     """Whether re-planning changes nothing of what was re-planned before."""
     again = replanned(program, gcode, variant, "--keep-going")[0]
-    same = again.read_bytes() == gcode.read_bytes()
-    again.unlink()
+    same = again is not None and again.read_bytes() == gcode.read_bytes()
+    if again:
+        again.unlink()
     return same
 
 

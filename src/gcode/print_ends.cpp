@@ -8,22 +8,13 @@
 #include <cmath>
 
 #include "base/base64.hpp"
+#include "base/duration_text.hpp"
 #include "gcode/print.hpp"
 #include "gcode/template_codes.hpp"
 #include "model/options.hpp"
 
 namespace cleancolor {
 namespace {
-
-/// "1d 2h 3m 4s", leaving out what is zero on the left.
-std::string duration_text(double seconds) {
-  const auto s = std::llround(seconds);
-  std::string text;
-  if (s >= 86400) text += fmt::format("{}d ", s / 86400);
-  if (s >= 3600) text += fmt::format("{}h ", s / 3600 % 24);
-  if (s >= 60) text += fmt::format("{}m ", s / 60 % 60);
-  return text + fmt::format("{}s", s % 60);
-}
 
 /// The whole part, in [0, most]; of what is no number 0.
 long whole_within(double value, long most) {
@@ -197,7 +188,7 @@ PrintFigures GcodeWriter::Print::figures() {
 }
 
 void GcodeWriter::Print::statistics(const PrintFigures& figures) {
-  const auto list = [&](double FilamentUse::* figure, double scale) {
+  const auto list = [&](double FilamentUse::*figure, double scale) {
     std::vector<std::string> texts;
     for (const FilamentUse& use : figures.extruders) texts.push_back(fmt::format("{:.2f}", use.*figure * scale));
     return fmt::format("{}", fmt::join(texts, ", "));
@@ -213,9 +204,9 @@ void GcodeWriter::Print::statistics(const PrintFigures& figures) {
   text.line(fmt::format("; total filament cost = {:.2f}", cost));
   text.line(fmt::format("; total toolchanges = {}", figures.tool_changes));
   text.line(fmt::format("; total layers count = {}", figures.layers));
-  text.line(fmt::format("; estimated printing time (normal mode) = {}", duration_text(figures.time_s)));
+  text.line(fmt::format("; estimated printing time (normal mode) = {}", duration_in_slicers_words(figures.time_s)));
   text.line(fmt::format("; estimated first layer printing time (normal mode) = {}",
-                        duration_text(figures.first_layer_time_s)));
+                        duration_in_slicers_words(figures.first_layer_time_s)));
 }
 
 void GcodeWriter::Print::config_comments() {

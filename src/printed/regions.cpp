@@ -124,4 +124,12 @@ bool has_part(std::span<const LaidRoad> roads) {
   return std::ranges::any_of(roads, [](const LaidRoad& r) { return !is_auxiliary(r.role); });
 }
 
+double median_depth_mm(std::span<const Vec2> places, const Polygons& region) {
+  std::vector<double> depths;
+  for (const Vec2 p : places) depths.push_back(border_distance_mm(region, p));
+  const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
+  std::ranges::nth_element(depths, middle);
+  return *middle;
+}
+
 }  // namespace cleancolor

@@ -26,6 +26,9 @@ Polygons plastic(std::span<const LaidRoad> roads, double detail_mm = 0.01);
 /// Cost: some 20 ms for 1000 outer roads at 0.01 mm, 1 ms a layer at 0.1 mm.
 Polygons region(std::span<const LaidRoad> roads, int nozzle, double detail_mm = 0.01);
 
+/// Of the places' distances to the region's border.  Requires: there is one, and the region has a border.
+double median_depth_mm(std::span<const Vec2> places, const Polygons& region);
+
 /// Whether any of them is the part's.
 bool has_part(std::span<const LaidRoad> roads);
 

@@ -109,13 +109,6 @@ bool is_colour(std::string_view value) {
          value.substr(1, 6).find_first_not_of("0123456789abcdefABCDEF") == value.npos;
 }
 
-std::string_view last_value(const GcodeFacts& facts, std::string_view key) {
-  std::string_view found;
-  for (const IniEntry& entry : facts.config)
-    if (entry.key == key) found = entry.value;
-  return found;
-}
-
 std::vector<double> numbers_of(std::string_view list, double most) {
   std::vector<double> numbers;
   if (list.empty()) return numbers;

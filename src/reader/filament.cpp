@@ -15,13 +15,6 @@ double circle_area(double diameter) {
   return std::numbers::pi / 4 * diameter * diameter;
 }
 
-std::string_view config_value(const GcodeFacts& facts, std::string_view key) {
-  std::string_view value;
-  for (const IniEntry& entry : facts.config)
-    if (entry.key == key) value = entry.value;
-  return value;
-}
-
 /// The values of a list by tool; those that are not told repeat the last one.
 std::array<double, max_tools> by_tool(std::string_view list, double usual) {
   std::array<double, max_tools> values;
@@ -41,10 +34,10 @@ FilamentCounts::FilamentCounts(const GcodeFacts& facts) : volumetric_(facts.volu
   const std::vector<double>& diameters = facts.filament_diameter_mm;
   for (std::size_t t = 0; t < max_tools; ++t)
     area_mm2_[t] = circle_area(diameters.empty() ? usual_diameter_mm : diameters[std::min(t, diameters.size() - 1)]);
-  std::string_view retraction = config_value(facts, "retract_length");
-  if (retraction.empty()) retraction = config_value(facts, "retraction_length");  // OrcaSlicer
+  std::string_view retraction = last_value(facts, "retract_length");
+  if (retraction.empty()) retraction = last_value(facts, "retraction_length");  // OrcaSlicer
   retraction_mm_ = by_tool(retraction, usual_retraction_mm);
-  const std::string_view flavour = config_value(facts, "gcode_flavor");
+  const std::string_view flavour = last_value(facts, "gcode_flavor");
   follows_g91_ = flavour != "klipper" && flavour != "reprapfirmware" && flavour != "sailfish" && flavour != "makerware";
 }
 

@@ -13,11 +13,6 @@ constexpr double usual_step_mm = 0.2;
 constexpr double flat_share = 0.25;
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
-double way_mm(const GcodePrint& print, std::size_t i) {
-  const Vec3 from = print.moves[i - 1].to_mm, to = print.moves[i].to_mm;
-  return std::hypot(to.x - from.x, to.y - from.y);
-}
-
 double z_of(const GcodePrint& print, std::size_t i) {
   return print.moves[i].to_mm.z;
 }

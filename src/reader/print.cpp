@@ -1,5 +1,7 @@
 #include "reader/print.hpp"
 
+#include <cmath>
+
 #include <algorithm>
 
 namespace cleancolor {
@@ -32,6 +34,18 @@ std::string_view line_at(std::string_view text, std::size_t offset) {
   std::string_view line = text.substr(begin, text.find(end, begin) - begin);
   if (line.ends_with('\r')) line.remove_suffix(1);
   return line;
+}
+
+std::string_view last_value(const GcodeFacts& facts, std::string_view key) {
+  std::string_view found;
+  for (const IniEntry& entry : facts.config)
+    if (entry.key == key) found = entry.value;
+  return found;
+}
+
+double way_mm(const GcodePrint& print, std::size_t i) {
+  const Vec3 from = print.moves[i - 1].to_mm, to = print.moves[i].to_mm;
+  return std::hypot(to.x - from.x, to.y - from.y);
 }
 
 }  // namespace cleancolor

@@ -111,6 +111,9 @@ struct GcodeFacts {
   double told_time_s = 0;                    // the slicer's own estimate; 0: none
 };
 
+/// Of an option of the configuration block, as it is told last; empty: not told.
+std::string_view last_value(const GcodeFacts& facts, std::string_view key);
+
 struct GcodePrint {
   std::string name;                         // of the file, for messages
   std::shared_ptr<const std::string> text;  // of the file, verbatim
@@ -125,6 +128,9 @@ struct GcodePrint {
 
 /// Whether move i lays plastic along X or Y, from a place that is known.
 bool lays_plastic(const GcodePrint& print, std::size_t i);
+
+/// How far move i goes along X and Y.  Requires: i > 0.
+double way_mm(const GcodePrint& print, std::size_t i);
 
 /// The number of the line that begins at or contains this byte, from 1.  Cost: counts from the start of the text.
 std::size_t line_number(std::string_view text, std::size_t offset);

@@ -38,14 +38,14 @@ class Frequent {
 };
 
 /// What one tool does when it stops printing.
-struct Habits {
+struct RetractionHabits {
   Frequent back_mm{0.001}, back_at_change_mm{0.001}, back_mm_s{0.01}, forward_mm_s{0.01}, lift_mm{0.001};
   std::size_t drawn_back = 0, lifted = 0;
   double shortest_way_mm = INFINITY;  // that filament was drawn back for
 };
 
 /// What lies between two roads of a layer, or of two.
-struct Gap {
+struct TravelBetween {
   double back_mm = 0;  // at most
   double way_mm = 0, lift_mm = 0;
   double now_back_mm = 0;
@@ -73,7 +73,7 @@ class Reading {
   double first_speed_mm_s(double otherwise) const { return first_mm_s_.value_or(otherwise); }
   const Frequent& travel_mm_s() const { return travel_mm_s_; }
   const Frequent& z_mm_s() const { return z_mm_s_; }
-  const Habits& habits(std::size_t tool) const { return habits_[tool]; }
+  const RetractionHabits& habits(std::size_t tool) const { return habits_[tool]; }
   std::size_t backs_at_layers() const { return backs_at_layers_; }
   bool begins_with_outer_walls() const { return outer_first_ > 0; }
 
@@ -81,11 +81,6 @@ class Reading {
   static double of(const std::map<Role, Frequent>& all, Role role, double otherwise) {
     const auto found = all.find(role);
     return found == all.end() ? otherwise : found->second.value_or(otherwise);
-  }
-
-  double way_mm(std::size_t i) const {
-    const Vec3 a = print_.moves[i - 1].to_mm, b = print_.moves[i].to_mm;
-    return std::hypot(b.x - a.x, b.y - a.y);
   }
 
   /// In each layer and tool that has inner and outer walls: which of them comes first.
@@ -105,7 +100,7 @@ class Reading {
   void add_road(std::size_t i) {
     const GcodeMove& move = print_.moves[i];
     add_wall(move);
-    const double mm = way_mm(i);
+    const double mm = way_mm(print_, i);
     width_mm_.try_emplace(move.role, 0.01).first->second.add(road_width_mm(move), mm);
     speed_mm_s_.try_emplace(move.role, 0.01).first->second.add(move.speed_mm_s, mm);
     if (move.layer == 0 && is_wall(move.role)) first_mm_s_.add(move.speed_mm_s, mm);
@@ -113,7 +108,7 @@ class Reading {
 
   void add_other(std::size_t i) {
     const GcodeMove& move = print_.moves[i];
-    const double mm = way_mm(i), rise = move.to_mm.z - print_.moves[i - 1].to_mm.z;
+    const double mm = way_mm(print_, i), rise = move.to_mm.z - print_.moves[i - 1].to_mm.z;
     gap_.way_mm += mm;
     gap_.lift_mm = std::max(gap_.lift_mm, rise);
     if (move.tool == gap_.tool) gap_.now_back_mm -= move.filament_mm;
@@ -127,7 +122,7 @@ class Reading {
 
   void end_gap(std::size_t before, std::size_t after) {
     const GcodeMove &from = print_.moves[before], &to = print_.moves[after];
-    Habits& h = habits_[from.tool];
+    RetractionHabits& h = habits_[from.tool];
     if (from.tool != to.tool) {
       h.back_at_change_mm.add(gap_.back_mm);
     } else if (from.to_mm.z == to.to_mm.z && gap_.back_mm > 0) {
@@ -144,13 +139,13 @@ class Reading {
   const GcodePrint& print_;
   std::map<Role, Frequent> width_mm_, speed_mm_s_;
   Frequent first_mm_s_{0.01}, travel_mm_s_{0.01}, z_mm_s_{0.01};
-  std::vector<Habits> habits_;
+  std::vector<RetractionHabits> habits_;
   std::size_t backs_at_layers_ = 0;
   std::uint32_t walls_layer_ = ~std::uint32_t{0};
   std::uint8_t walls_tool_ = 0;
   bool first_is_outer_ = false, has_voted_ = false;
   int outer_first_ = 0;
-  Gap gap_;
+  TravelBetween gap_;
 };
 
 std::vector<Vec2> used_bed_mm(const GcodePrint& print, const AuditMachine& machine) {
@@ -168,7 +163,7 @@ LengthOrShare length(double mm) {
   return {mm, false};
 }
 
-void take_habits(Extruder& extruder, const Habits& habits, double nozzle_mm) {
+void take_habits(Extruder& extruder, const RetractionHabits& habits, double nozzle_mm) {
   extruder.nozzle_diameter_mm = nozzle_mm;
   extruder.retract_length_mm = habits.back_mm.value_or(0);
   extruder.retract_length_toolchange_mm = habits.back_at_change_mm.value_or(extruder.retract_length_mm);
@@ -232,8 +227,7 @@ Config cura_config(const GcodePrint& print, const AuditMachine& machine, const C
 
 std::optional<GcodePrint> with_ironing(const GcodePrint& print) {
   const auto flow_of = [&](std::size_t i) {  // of filament, for each mm of way and of height
-    const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
-    return print.moves[i].filament_mm / std::hypot(b.x - a.x, b.y - a.y) / double(print.moves[i].height_mm);
+    return print.moves[i].filament_mm / way_mm(print, i) / double(print.moves[i].height_mm);
   };
   Frequent wall_flow(0.001);
   for (std::size_t i = 1; i < print.moves.size(); ++i)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gcode/text.hpp"
+#include "replan/pieces.hpp"
 
 namespace cleancolor {
 namespace {
@@ -34,7 +35,7 @@ Emitter::Emitter(const RecoveredPrint& recovered, const GcodePrint& print, const
       text_(print.text->substr(0, recovered.begin)),
       state_(recovered.states[recovered.begin_state]),
       tool_(recovered.begin_tool),
-      z_um_(std::llround(recovered.begin_z_mm * 1e3)),
+      z_um_(um_of(recovered.begin_z_mm)),
       count_e5_(recovered.begin_count_e5),
       drawn_back_e5_(recovered.begin_drawn_back_e5) {
   if (!header.empty()) text_.insert(std::min(text_.find('\n'), text_.size() - 1) + 1, header + "\n");
@@ -121,7 +122,7 @@ void Emitter::rises_over(double way_um) {
 
 void Emitter::rise_on_the_way(FilePoint to) {
   const std::int64_t by = rises_by_um_, from_z = z_um_ + lift_um_;
-  const double possible = rise_slope_ * std::hypot(double(to.x_um - at_.x_um), double(to.y_um - at_.y_um));
+  const double possible = rise_slope_ * length_um(at_, to);
   if (possible + 1 < double(by)) {
     const std::int64_t risen = std::llround(possible);
     travel(to, from_z + risen);
@@ -129,9 +130,7 @@ void Emitter::rise_on_the_way(FilePoint to) {
     return;
   }
   const double share = std::min(1., double(by) / possible);
-  travel({at_.x_um + std::llround(double(to.x_um - at_.x_um) * share),
-          at_.y_um + std::llround(double(to.y_um - at_.y_um) * share)},
-         from_z + by);
+  travel(between(at_, to, share), from_z + by);
   travel(to);
 }
 
@@ -162,20 +161,20 @@ void Emitter::move_z(std::int64_t to_um) {
 }
 
 void Emitter::set_z(double z_mm) {
-  z_um_ = std::llround(z_mm * 1e3);
+  z_um_ = um_of(z_mm);
   // A lifted nozzle that is above the new layer already stays where it is, as in PrusaSlicer.
   lift_um_ = lift_um_ > 0 && z_known_ ? std::max<std::int64_t>(0, told_z_um_ - z_um_) : 0;
   move_z(z_um_ + lift_um_);
 }
 
 void Emitter::take_z(double z_mm) {
-  z_um_ = std::llround(z_mm * 1e3);
+  z_um_ = um_of(z_mm);
   lift_um_ = std::max<std::int64_t>(0, told_z_um_ - z_um_);
 }
 
 void Emitter::lift(double by_mm) {
   if (is_lifted()) return;
-  rises_by_um_ = std::llround(by_mm * 1e3);
+  rises_by_um_ = um_of(by_mm);
   rise_slope_ = recovered_.lift_slope;
   if (recovered_.lift_slope == 0 || !known_) rise_at_once();
 }
@@ -192,7 +191,7 @@ void Emitter::rise(std::span<const std::string> spiral) {
   lines(spiral);
   feed_ = -1;
   GcodeLine last;
-  if (!parse_line(spiral.back(), last)) told_z_um_ = std::llround(last.value_or('Z', double(z_um_) / 1e3) * 1e3);
+  if (!parse_line(spiral.back(), last)) told_z_um_ = um_of(last.value_or('Z', double(z_um_) / 1e3));
   z_known_ = true;
   lift_um_ = told_z_um_ - z_um_;
 }
@@ -252,13 +251,11 @@ void Emitter::wipe(std::span<const WipeMove> moves) {
   line(words_.wipe_begins);
   for (const WipeMove& move : moves) {
     text_ += "G1";
-    if (move.to.x_um != at_.x_um) put<3>(text_, 'X', move.to.x_um);
-    if (move.to.y_um != at_.y_um) put<3>(text_, 'Y', move.to.y_um);
+    put_place(move.to);
     put_e(-move.filament_e5);
     put_feed(move.feed_mm_min);
     end_line();
     back_e5() += move.filament_e5;
-    at_ = move.to;
   }
   line(words_.wipe_ends);
 }

@@ -1,18 +1,9 @@
 #include "replan/filament_book.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace cleancolor {
-namespace {
-
-std::int64_t filament_e5(double mm) {
-  return std::llround(mm * 1e5);
-}
-
-}  // namespace
-
 FilamentBook::FilamentBook(int tools, bool e_of_each_tool)
     : of_each_tool_(e_of_each_tool), count_(max_tools, 0), back_(std::size_t(std::max<int>(tools, max_tools)), 0) {}
 
@@ -21,7 +12,7 @@ void FilamentBook::count(const GcodeLine& line, int tool, bool relative) {
   const bool moves = line.letter == 'G' && line.number <= 3;
   if (!sets && (!moves || relative)) return;
   const auto take = [&](char letter, std::size_t index) {
-    if (line.has_value(letter)) count_[index] = filament_e5(line[letter]);
+    if (line.has_value(letter)) count_[index] = e5_of(line[letter]);
   };
   take('E', of_each_tool_ ? std::size_t(tool) : 0);
   if (of_each_tool_) take('A', 0), take('B', 1);
@@ -29,7 +20,7 @@ void FilamentBook::count(const GcodeLine& line, int tool, bool relative) {
 
 void FilamentBook::move(const GcodeMove& move) {
   std::int64_t& back = back_[move.feeds];
-  back = std::max<std::int64_t>(0, back - filament_e5(move.filament_mm));
+  back = std::max<std::int64_t>(0, back - e5_of(move.filament_mm));
 }
 
 void FilamentBook::take_first_pushes(const GcodePrint& print, std::size_t from) {
@@ -42,7 +33,7 @@ void FilamentBook::take_first_pushes(const GcodePrint& print, std::size_t from) 
       has_printed[move.feeds] = 1;
       back_[move.feeds] += std::max<std::int64_t>(0, -back[move.feeds]);
     } else {
-      back[move.feeds] -= filament_e5(move.filament_mm);
+      back[move.feeds] -= e5_of(move.filament_mm);
     }
   }
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,10 @@
 namespace cleancolor {
 
 inline constexpr std::int64_t filament_rounding_e5 = 200;  // of what is drawn back and pushed forward again
+
+inline std::int64_t e5_of(double mm) {
+  return std::llround(mm * 1e5);
+}
 
 /// In 1e-5 mm of filament.
 class FilamentBook {

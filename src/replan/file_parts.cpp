@@ -33,17 +33,13 @@ bool is_set(std::string_view value) {
 
 FileHabits habits_of_file(const GcodePrint& print) {
   FileHabits habits;
-  for (const IniEntry& entry : print.facts.config) {
-    const bool sailfish = entry.value == "sailfish", makerware = entry.value == "makerware";
-    if (entry.key == "travel_slope") {
-      const auto first = std::string_view(entry.value).substr(0, entry.value.find(','));
-      habits.travel_slope = std::tan(number<double>(first).value_or(0) * std::numbers::pi / 180);
-    }
-    if (entry.key == "ooze_prevention") habits.stands_aside = entry.value == "1";
-    if (entry.key != "gcode_flavor") continue;
-    habits.e_of_each_tool = sailfish || makerware;
-    habits.says_on_and_off = makerware;
-  }
+  const std::string_view slopes = last_value(print.facts, "travel_slope");
+  habits.travel_slope =
+      std::tan(number<double>(slopes.substr(0, slopes.find(','))).value_or(0) * std::numbers::pi / 180);
+  habits.stands_aside = last_value(print.facts, "ooze_prevention") == "1";
+  const std::string_view flavour = last_value(print.facts, "gcode_flavor");
+  habits.says_on_and_off = flavour == "makerware";
+  habits.e_of_each_tool = habits.says_on_and_off || flavour == "sailfish";
   const std::string_view text = *print.text;
   habits.says_roles_behind = print.facts.dialect == Dialect::slic3r && text.find("\n;TYPE:") == text.npos &&
                              text.find("gcode_comments = 1") != text.npos;
@@ -63,18 +59,17 @@ std::size_t line_end(std::string_view text, std::size_t at) {
   return std::min(text.find('\n', at), text.size() - 1) + 1;
 }
 
-std::size_t behind_wipe(std::string_view text, std::size_t at, const DialectWords& words) {
-  std::size_t behind = at;
-  for (std::size_t p = at; p < text.size() && behind == at; p = line_end(text, p)) {
+std::size_t behind_wipe(std::string_view text, std::size_t at, std::size_t stop, const DialectWords& words) {
+  for (std::size_t p = at; p < stop; p = line_end(text, p)) {
     const std::string_view line = text.substr(p, text.find('\n', p) - p);
-    if (line.starts_with(words.wipe_ends)) behind = line_end(text, p);
+    if (line.starts_with(words.wipe_ends)) return line_end(text, p);
     // Between road and wipe some slicers tell that the object ends, or another acceleration.
     GcodeLine told;
     const bool passes = line.empty() || line.starts_with('G') || line.starts_with(words.wipe_begins) ||
                         (!parse_line(line, told) && modal_line(told));
     if (!passes) break;
   }
-  return behind;
+  return at;
 }
 
 std::size_t behind_spiral(const GcodePrint& print, std::size_t move) {
@@ -126,7 +121,7 @@ LayersText layers_text(const GcodePrint& print, const DialectWords& words) {
     if (!layers.prints_after) last = print.moves[i].offset;
   }
   if (last <= first) refuse_line(print, last, fmt::format("nothing is printed after the first {}", mark));
-  layers.end = behind_wipe(text, line_end(text, last), words);
+  layers.end = behind_wipe(text, line_end(text, last), text.size(), words);
   if (words.tower_is_roads) layers.end = behind_last_way(text, layers.end, words);
   return layers;
 }

@@ -43,9 +43,9 @@ void require_rising(const RecoveredPrint& recovered, const GcodePrint& print);
 /// Behind the line that begins at or contains this byte.
 std::size_t line_end(std::string_view text, std::size_t at);
 
-/// Behind the wipe that follows there before anything else but moves and the end of an object; `at` where there is
-/// none: a wipe goes over the road before it, and so with it.
-std::size_t behind_wipe(std::string_view text, std::size_t at, const DialectWords& words);
+/// Behind the wipe that follows there before `stop`, where the next road is, and anything else but moves and what holds
+/// until it is said anew; `at` where there is none: a wipe goes over the road before it, and so with it.
+std::size_t behind_wipe(std::string_view text, std::size_t at, std::size_t stop, const DialectWords& words);
 
 /// Behind the moves from there on that lift the nozzle while it goes round, and come back to where they began; the move
 /// itself where there are none. One who goes round on arcs moves in chords.

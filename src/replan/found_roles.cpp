@@ -21,7 +21,7 @@ constexpr double skirt_room_mm = 0.6;  // between a skirt and all else
 constexpr std::size_t samples = 24;    // places of a loop that are asked how deep it lies
 
 /// Moves [first, last) of one nozzle without a break.
-struct Run {
+struct UntoldRun {
   std::size_t first = 0, last = 0;
   int tool = 0;
   std::vector<Vec2> points;  // where the plastic lies
@@ -29,19 +29,14 @@ struct Run {
   bool closed = false;
 };
 
-std::string_view value_of(const GcodePrint& print, std::string_view key) {
-  for (const IniEntry& entry : print.facts.config)
-    if (entry.key == key) return entry.value;
-  return {};
-}
-
-std::vector<std::vector<Run>> runs_by_layer(const GcodePrint& print, const AuditMachine& machine, std::size_t begin) {
-  std::vector<std::vector<Run>> layers(print.layers.size());
+std::vector<std::vector<UntoldRun>> runs_by_layer(const GcodePrint& print, const AuditMachine& machine,
+                                                  std::size_t begin) {
+  std::vector<std::vector<UntoldRun>> layers(print.layers.size());
   std::size_t last = 0;
   for (std::size_t i = 1; i < print.moves.size(); ++i) {
     const GcodeMove& move = print.moves[i];
     if (move.offset < begin || !lays_plastic(print, i)) continue;
-    std::vector<Run>& runs = layers[move.layer];
+    std::vector<UntoldRun>& runs = layers[move.layer];
     const auto place = [&](Vec3 p) { return plastic_mm(machine, {p.x, p.y}, move.feeds); };
     if (runs.empty() || last + 1 != i || runs.back().tool != move.feeds)
       runs.push_back({i, i, move.feeds, {place(print.moves[i - 1].to_mm)}, road_width_mm(move), false});
@@ -49,8 +44,8 @@ std::vector<std::vector<Run>> runs_by_layer(const GcodePrint& print, const Audit
     runs.back().last = i + 1;
     last = i;
   }
-  for (std::vector<Run>& runs : layers)
-    for (Run& run : runs) {
+  for (std::vector<UntoldRun>& runs : layers)
+    for (UntoldRun& run : runs) {
       const double gap = distance(run.points.front(), run.points.back());
       double length = 0;
       for (std::size_t i = 0; i + 1 < run.points.size(); ++i) length += distance(run.points[i], run.points[i + 1]);
@@ -59,14 +54,14 @@ std::vector<std::vector<Run>> runs_by_layer(const GcodePrint& print, const Audit
   return layers;
 }
 
-Box<Vec2> box_of(const Run& run) {
+Box<Vec2> box_of(const UntoldRun& run) {
   Box<Vec2> box;
   for (const Vec2 p : run.points) box.add(p);
   return box;
 }
 
 /// How many of the first runs are loops around all that follow.
-std::size_t skirts(const std::vector<Run>& runs) {
+std::size_t skirts(const std::vector<UntoldRun>& runs) {
   std::vector<Box<Vec2>> rest(runs.size() + 1);  // of the runs from there on
   for (std::size_t i = runs.size(); i-- > 0;) {
     rest[i] = rest[i + 1];
@@ -82,13 +77,12 @@ std::size_t skirts(const std::vector<Run>& runs) {
   return count;
 }
 
-bool is_outer(const Run& run, const Polygons& region) {
-  std::vector<double> depths;
+bool is_outer(const UntoldRun& run, const Polygons& region) {
+  std::vector<Vec2> places;
   const std::size_t step = std::max<std::size_t>(1, run.points.size() / samples);
   for (std::size_t i = 0; i + 1 < run.points.size(); i += step)
-    depths.push_back(border_distance_mm(region, lerp(run.points[i], run.points[i + 1], 0.5)));
-  std::ranges::nth_element(depths, depths.begin() + std::ptrdiff_t(depths.size() / 2));
-  return depths[depths.size() / 2] < outer_widths * run.width_mm;
+    places.push_back(lerp(run.points[i], run.points[i + 1], 0.5));
+  return median_depth_mm(places, region) < outer_widths * run.width_mm;
 }
 
 }  // namespace
@@ -102,19 +96,19 @@ bool tells_roles(const GcodePrint& print) {
 
 GcodePrint with_found_roles(GcodePrint print, const AuditMachine& machine) {
   for (const std::string_view key : {"support_material", "raft_layers", "brim_width", "interior_brim_width"})
-    if (is_set(value_of(print, key)))
+    if (is_set(last_value(print.facts, key)))
       throw Error(
           fmt::format("{}: {} = {}, and the file does not say which roads are that; switch on verbose G-code "
                       "(gcode_comments), or slice without",
-                      print.name, key, value_of(print, key)));
-  const bool ooze = value_of(print, "ooze_prevention") == "1";
-  const bool all_layers = ooze || value_of(print, "skirt_height") == "-1";
-  const auto height = number<std::size_t>(value_of(print, "skirt_height")).value_or(1);
-  const bool has_skirts = ooze || is_set(value_of(print, "skirts"));
+                      print.name, key, last_value(print.facts, key)));
+  const bool ooze = last_value(print.facts, "ooze_prevention") == "1";
+  const bool all_layers = ooze || last_value(print.facts, "skirt_height") == "-1";
+  const auto height = number<std::size_t>(last_value(print.facts, "skirt_height")).value_or(1);
+  const bool has_skirts = ooze || is_set(last_value(print.facts, "skirts"));
   const std::size_t begin = print.text->find("\n;LAYER_CHANGE");
   auto layers = runs_by_layer(print, machine, begin == std::string::npos ? 0 : begin);
   for (std::size_t k = 0; k < layers.size(); ++k) {
-    std::vector<Run>& runs = layers[k];
+    std::vector<UntoldRun>& runs = layers[k];
     const std::size_t skirted = has_skirts && (all_layers || k < height) ? skirts(runs) : 0;
     std::map<int, std::vector<LaidRoad>> roads;
     for (std::size_t n = skirted; n < runs.size(); ++n)

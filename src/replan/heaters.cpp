@@ -71,24 +71,23 @@ struct HeaterHabits {
   bool is_switched_off = false;
 };
 
-std::map<int, HeaterHabits> habits_of(const RecoveredPrint& recovered, const GcodePrint& print, const Timeline& time) {
-  const std::size_t begin = recovered.begin;
-  std::map<int, HeaterHabits> all;
-  const std::vector<double> at_s = begins_s(time);
+/// By tool.
+using AllHabits = std::map<int, HeaterHabits>;
+
+/// How hot a tool prints is the hottest that it is while it lays plastic in a layer.
+void learn_printing(const RecoveredPrint& recovered, const GcodePrint& print, AllHabits& all) {
   std::map<int, double> target_c;
   std::size_t next = 0;
   const auto take = [&](const GcodeEvent& e) {
     if (is_target(e)) target_c[e.tool] = e.value;
   };
-  for (; next < print.events.size() && print.events[next].offset < begin; ++next) take(print.events[next]);
+  for (; next < print.events.size() && print.events[next].offset < recovered.begin; ++next) take(print.events[next]);
   for (const auto& [tool, c] : target_c) all[tool].begin_c = c;
-
-  // How hot a tool prints is the hottest that it is while it lays plastic in a layer.
   std::map<int, std::map<std::uint32_t, double>> hottest;
   for (std::size_t i = 0; i < print.moves.size(); ++i) {
     for (; next < print.events.size() && print.events[next].before_move <= i; ++next) take(print.events[next]);
     const GcodeMove& move = print.moves[i];
-    if (move.offset < begin || !lays_plastic(print, i)) continue;
+    if (move.offset < recovered.begin || !lays_plastic(print, i)) continue;
     double& most = hottest[move.tool][move.layer];
     most = std::max(most, target_c[move.tool]);
   }
@@ -97,14 +96,19 @@ std::map<int, HeaterHabits> habits_of(const RecoveredPrint& recovered, const Gco
       auto& own = all[tool].print_c;
       if (own.empty() || std::abs(own.rbegin()->second - c) >= same_c) own[layer] = c;
     }
+}
 
-  // Between two uses: how cool it becomes, and when it is told to be hot again.
-  const std::vector<GcodeEvent> targets = targets_among_layers(recovered, print);
+/// Between two uses: how cool it becomes, and when it is told to be hot again.  Requires: what it prints at is known.
+void learn_idling(const RecoveredPrint& recovered, const GcodePrint& print, const Timeline& time, AllHabits& all) {
+  const std::vector<double> at_s = begins_s(time);
   std::map<int, std::vector<GcodeEvent>> targets_of;
-  for (const GcodeEvent& e : targets) targets_of[e.tool].push_back(e);
+  for (const GcodeEvent& e : targets_among_layers(recovered, print)) {
+    targets_of[e.tool].push_back(e);
+    if (e.value <= 0) all[e.tool].is_switched_off = true;
+  }
   std::map<int, std::size_t> told;  // so many of them
   std::map<int, double> left_s;
-  for (const ToolUse& use : uses_of(print, begin)) {
+  for (const ToolUse& use : uses_of(print, recovered.begin)) {
     HeaterHabits& habits = all[use.tool];
     const double taken_s = at_s[use.begin];
     const bool was_used = left_s.contains(use.tool);
@@ -125,9 +129,6 @@ std::map<int, HeaterHabits> habits_of(const RecoveredPrint& recovered, const Gco
     }
     left_s[use.tool] = at_s[use.end];
   }
-  for (const GcodeEvent& e : targets)
-    if (e.value <= 0) all[e.tool].is_switched_off = true;
-  return all;
 }
 
 double print_c(const HeaterHabits& habits, std::uint32_t layer) {
@@ -160,7 +161,9 @@ bool sets_temperatures(const RecoveredPrint& recovered, const GcodePrint& print)
 
 std::string with_heaters(const RecoveredPrint& recovered, const GcodePrint& print, const GcodePrint& after,
                          const AuditMachine& machine, std::string_view layer_mark) {
-  const auto all = habits_of(recovered, print, timeline(print, machine));
+  AllHabits all;
+  learn_printing(recovered, print, all);
+  learn_idling(recovered, print, timeline(print, machine), all);
   const std::string_view text = *after.text;
   const std::size_t first = text.find(fmt::format("\n{}", layer_mark)) + 1;
   const std::vector<double> at_s = begins_s(timeline(after, machine));

@@ -108,7 +108,7 @@ class KeptPrint {
 
   /// Before another tool is taken.
   void lift_for_change() {
-    if (!has_left_) out_.draw_back(std::llround(extruder().retract_length_toolchange_mm * 1e5));
+    if (!has_left_) out_.draw_back(e5_of(extruder().retract_length_toolchange_mm));
     if (const double by = std::max(extruder().retract_lift_mm, recovered_.change_lift_mm); by > 0) out_.lift(by);
   }
 

@@ -33,11 +33,7 @@ std::vector<std::vector<std::size_t>> shield_runs(const RecoveredPrint& recovere
 
 Path as_wall(Path path) {
   for (Stretch& s : path.stretches) s.road.role = Role::rampart;
-  const double gap = distance(path.points.front(), path.points.back());
-  if (path.closed || path.points.size() < 4 || !comes_back(gap, length_mm(path), path.road().width_mm)) return path;
-  path.closed = true;
-  if (gap == 0) path.points.pop_back();
-  return path;
+  return closed_where_it_comes_back(std::move(path));
 }
 
 }  // namespace cleancolor

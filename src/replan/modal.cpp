@@ -13,6 +13,8 @@ namespace cleancolor {
 namespace {
 
 constexpr std::string_view label_prefix = "0 ";
+constexpr std::string_view object_key = "0 ; object", exclude_key = "0 EXCLUDE_OBJECT", m624_key = "0 M624",
+                           m486_key = "0 M486";
 
 /// Names of the arguments of a command in words; of those that say which extruder is meant also their values.
 std::string names_in(std::string_view arguments) {
@@ -49,8 +51,9 @@ std::optional<ModalLine> of_comment(std::string_view comment) {
                                                                                   {"OBJECT_ID:", object_id_key}}};
   for (const auto& [begin, key] : told)
     if (text.starts_with(begin)) return ModalLine{std::string(key)};
-  if (text.starts_with("printing object ") || text.starts_with("start printing object")) return ModalLine{"0 ; object"};
-  if (text.starts_with("stop printing object")) return ModalLine{"0 ; object", true};
+  if (text.starts_with("printing object ") || text.starts_with("start printing object"))
+    return ModalLine{std::string(object_key)};
+  if (text.starts_with("stop printing object")) return ModalLine{std::string(object_key), true};
   return std::nullopt;
 }
 
@@ -75,23 +78,23 @@ std::optional<ModalLine> of_m(const GcodeLine& line) {
       return ModalLine{fmt::format("M{}{}", line.number, letters_in(line, "TD"))};
     case 624:
     case 625:
-      return ModalLine{"0 M624", line.number == 625};
+      return ModalLine{std::string(m624_key), line.number == 625};
     case 486:
       if (!line.has_value('S')) return std::nullopt;
-      return ModalLine{"0 M486", line['S'] < 0};
+      return ModalLine{std::string(m486_key), line['S'] < 0};
     default:
       return std::nullopt;
   }
 }
 
 /// The line that ends what this one begins.
-std::string end_of_label(std::string_view line) {
-  constexpr std::string_view words = "; printing object", exclude = "EXCLUDE_OBJECT_START", start = "; start ";
-  if (line.starts_with(words)) return fmt::format("; stop{}", line.substr(1));
-  if (line.starts_with(start)) return fmt::format("; stop {}", line.substr(start.size()));
-  if (line.starts_with("M624")) return "M625";
-  if (line.starts_with(exclude)) return fmt::format("EXCLUDE_OBJECT_END{}", line.substr(exclude.size()));
-  return "M486 S-1";
+std::string end_of_label(std::string_view key, std::string_view line) {
+  if (key == m624_key) return "M625";
+  if (key == m486_key) return "M486 S-1";
+  const auto behind = [&](std::string_view words) { return line.substr(std::min(line.find(words), line.size())); };
+  if (key == object_key) return fmt::format("; stop {}", behind("printing object"));
+  const std::string_view name = behind("_START");
+  return fmt::format("EXCLUDE_OBJECT_END{}", name.substr(std::min(name.find(' '), name.size())));
 }
 
 }  // namespace
@@ -100,14 +103,14 @@ std::optional<ModalLine> modal_line(const GcodeLine& line) {
   if (line.letter == 'M') return of_m(line);
   if (line.word == "SET_VELOCITY_LIMIT" || line.word == "SET_PRESSURE_ADVANCE")
     return ModalLine{std::string(line.word) + names_in(trimmed(line.arguments))};
-  if (line.word == "EXCLUDE_OBJECT_START") return ModalLine{"0 EXCLUDE_OBJECT"};
-  if (line.word == "EXCLUDE_OBJECT_END") return ModalLine{"0 EXCLUDE_OBJECT", true};
+  if (line.word == "EXCLUDE_OBJECT_START") return ModalLine{std::string(exclude_key)};
+  if (line.word == "EXCLUDE_OBJECT_END") return ModalLine{std::string(exclude_key), true};
   const bool alone = line.letter == 0 && line.word.empty() && line.present == 0;
   return alone && line.has_comment ? of_comment(line.comment) : std::nullopt;
 }
 
 ModalState of_moving(const ModalState& state) {
-  constexpr std::array<std::string_view, 4> keys = {"M201", "M204", "M205", "SET_VELOCITY_LIMIT"};
+  constexpr std::array<std::string_view, 5> keys = {"M201", "M204", "M205", "M566", "SET_VELOCITY_LIMIT"};
   ModalState moving;
   for (const auto& [key, text] : state)
     if (std::ranges::any_of(keys, [&](std::string_view begin) { return key.starts_with(begin); })) moving[key] = text;
@@ -131,7 +134,7 @@ std::vector<std::string> lines_between(const ModalState& from, const ModalState&
     const auto before = from.find(key);
     if (before != from.end() && before->second == text) continue;
     if (key.starts_with(label_prefix) && before != from.end() && !before->second.empty())
-      ends.push_back(end_of_label(before->second));
+      ends.push_back(end_of_label(key, before->second));
     if (!text.empty()) lines.push_back(text);
   }
   std::ranges::move(lines, std::back_inserter(ends));

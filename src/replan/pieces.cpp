@@ -11,13 +11,9 @@ constexpr double same_radius_mm = 0.05, least_apart_mm = 0.002;  // of an arc's 
 constexpr double least_arc_um = 50;
 constexpr double step_rad = std::numbers::pi / 18;
 
-Vec2 to_mm(FilePoint p) {
-  return {double(p.x_um) / 1e3, double(p.y_um) / 1e3};
-}
-
 /// From one place of an arc to another, about its centre: > 0 counterclockwise.
 double sweep_rad(const RoadArc& arc, FilePoint from, FilePoint to) {
-  const Vec2 a = to_mm(from) - to_mm(arc.center), b = to_mm(to) - to_mm(arc.center);
+  const Vec2 a = mm_of(from) - mm_of(arc.center), b = mm_of(to) - mm_of(arc.center);
   double angle = std::atan2(cross(a, b), dot(a, b));
   if (arc.clockwise && angle > 0) angle -= 2 * std::numbers::pi;
   if (!arc.clockwise && angle < 0) angle += 2 * std::numbers::pi;
@@ -37,7 +33,7 @@ std::optional<RoadArc> arc_of(const GcodeLine& line, Vec2 from_mm, Vec2 to_mm) {
   const Vec2 center = from_mm + Vec2{line.value_or('I', 0), line.value_or('J', 0)};
   const bool is_round = std::abs(distance(center, from_mm) - distance(center, to_mm)) <= same_radius_mm;
   if (!is_round || distance(from_mm, to_mm) < least_apart_mm) return std::nullopt;
-  return RoadArc{{std::llround(center.x * 1e3), std::llround(center.y * 1e3)}, line.number == 2};
+  return RoadArc{file_point(center), line.number == 2};
 }
 
 double length_um(FilePoint a, FilePoint b) {
@@ -73,13 +69,13 @@ FilePoint at_share(const Piece& piece, double share) {
 }
 
 Vec2 nearest_mm(const Piece& piece, Vec2 p_mm) {
-  const Vec2 from = to_mm(piece.from), to = to_mm(piece.to);
+  const Vec2 from = mm_of(piece.from), to = mm_of(piece.to);
   if (!piece.arc) return nearest_on_segment(from, to, p_mm);
-  const Vec2 center = to_mm(piece.arc->center), out = p_mm - center;
+  const Vec2 center = mm_of(piece.arc->center), out = p_mm - center;
   const double radius = distance(center, from), apart = length(out);
   if (apart > 0) {
     const Vec2 on = center + out * (radius / apart);
-    const FilePoint at{std::llround(on.x * 1e3), std::llround(on.y * 1e3)};
+    const FilePoint at = file_point(on);
     const double share = share_at(piece, at);
     if (share >= 0 && share <= 1) return on;
   }

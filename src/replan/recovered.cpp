@@ -26,10 +26,6 @@ namespace {
 constexpr std::size_t most_settings = 64;           // that a print is under at once
 constexpr std::size_t most_state_bytes = 64 << 20;  // of all that held at some time
 
-std::int64_t to_e5(double mm) {
-  return std::llround(mm * 1e5);
-}
-
 class Recovery {
  public:
   Recovery(const GcodePrint& print, const DialectWords& words) : print_(print), words_(words), text_(*print.text) {}
@@ -236,8 +232,8 @@ class Recovery {
     const bool across = from.x != move.to_mm.x || from.y != move.to_mm.y || (!move.known_start && move.names_xy);
     if (!breaks_ && move.names_xy && !across && move.filament_mm > 0) {  // a road too short to be told
       RunRoad& road = run().roads.back();
-      road.filament_e5 += to_e5(move.filament_mm);
-      road.at_end_e5 += to_e5(move.filament_mm);
+      road.filament_e5 += e5_of(move.filament_mm);
+      road.at_end_e5 += e5_of(move.filament_mm);
       return;
     }
     breaks_ = true;
@@ -250,10 +246,10 @@ class Recovery {
     if (move.to_mm.z != from.z && !way_.rises_after) way_.rises_after = way_.places.size();
     if (!r_.layers.empty()) way_.rise_mm = std::max(way_.rise_mm, move.to_mm.z - r_.layers.back().z_mm);
     if (move.filament_mm > 0) {
-      const std::int64_t beyond = to_e5(move.filament_mm) - book_.back_of(move.feeds);
+      const std::int64_t beyond = e5_of(move.filament_mm) - book_.back_of(move.feeds);
       if (beyond > filament_rounding_e5) refuse("plastic is pushed out on the spot, more than was drawn back");
     }
-    if (move.filament_mm != 0) way_.move_filament(to_e5(move.filament_mm));
+    if (move.filament_mm != 0) way_.move_filament(e5_of(move.filament_mm));
     if (line_.has('A') || line_.has('B') || move.feeds != move.tool)
       refuse("filament of another tool than the one in use is moved");
     book_.move(move);
@@ -281,7 +277,7 @@ class Recovery {
     } else if (!way_.places.empty()) {
       refuse("filament is drawn back on the way, but not after a road");
     }
-    run().wipe.push_back({file_point(move.to_mm), -to_e5(move.filament_mm), feed_});
+    run().wipe.push_back({file_point(move.to_mm), -e5_of(move.filament_mm), feed_});
     book_.move(move);
     way_.drawn_back = true;
     way_.back_after = 0;
@@ -293,8 +289,8 @@ class Recovery {
     if (in_.first_move() == 0 || gap_.has_tool())
       refuse("a wipe tower that begins with a tool change is not re-planned");
     const Vec3 from = print_.moves[in_.first_move() - 1].to_mm;
-    std::size_t last = 0;
-    for (std::size_t i = in_.next_plastic(); i < print_.moves.size(); ++i) {
+    std::size_t last = 0, i = in_.next_plastic();
+    for (; i < print_.moves.size(); ++i) {
       if (!lays_plastic(print_, i)) continue;
       const GcodeMove& move = print_.moves[i];
       if (move.role != Role::wipe_tower || std::abs(move.to_mm.z - from.z) > same_height_mm) break;
@@ -304,7 +300,8 @@ class Recovery {
     if (book_.back_of(tool_) > filament_rounding_e5) refuse("a wipe tower that begins while filament is drawn back");
     FixedLines fixed{.lines = {}, .lays = true, .state = states_.index(), .drawn_back_e5 = book_.back()};
     close_gap(from);
-    const std::size_t end = behind_wipe(text_, line_end(text_, print_.moves[last].offset), words_);
+    const std::size_t next_road = i < print_.moves.size() ? print_.moves[i].offset : text_.size();
+    const std::size_t end = behind_wipe(text_, line_end(text_, print_.moves[last].offset), next_road, words_);
     for (;; in_.read()) {
       count_e();
       fixed.lines.emplace_back(in_.raw());
@@ -337,7 +334,7 @@ class Recovery {
     road.arc = arc;
     double filament_mm = 0;
     for (std::size_t i = first; i < behind; ++i) filament_mm += print_.moves[i].filament_mm;
-    road.filament_e5 = to_e5(filament_mm);
+    road.filament_e5 = e5_of(filament_mm);
   }
 
   /// index: of the first move of its line, move: the last.
@@ -359,7 +356,7 @@ class Recovery {
     const std::uint32_t state = states_.index();
     if (road_state_ != state) road_state_ = state, road_moving_ = of_moving(states_.now());
     run().roads.push_back({.to = file_point(move.to_mm),
-                           .filament_e5 = to_e5(move.filament_mm),
+                           .filament_e5 = e5_of(move.filament_mm),
                            .feed_mm_min = feed_,
                            .state = state,
                            .move = std::uint32_t(index)});
@@ -441,7 +438,6 @@ class Recovery {
   }
 
   void finish() {
-    if (gap_.has_tool()) way_.filament.clear();  // it is end_drawn_back_e5
     leave_run();
     r_.end_tool = tool_;
     r_.end_state = states_.index();

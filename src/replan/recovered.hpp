@@ -31,8 +31,14 @@ struct FilePoint {
 inline std::int64_t um_of(double mm) {
   return std::llround(mm * 1e3);
 }
+inline FilePoint file_point(Vec2 mm) {
+  return {um_of(mm.x), um_of(mm.y)};
+}
 inline FilePoint file_point(Vec3 mm) {
   return {um_of(mm.x), um_of(mm.y)};
+}
+inline Vec2 mm_of(FilePoint p) {
+  return {double(p.x_um) / 1e3, double(p.y_um) / 1e3};
 }
 
 /// Of a road that goes round: G2, G3. Never a whole circle.

@@ -9,9 +9,13 @@
 
 namespace cleancolor {
 
+namespace {
+
 bool is_temperature(const GcodeLine& line) {
   return line.letter == 'M' && (line.number == 104 || line.number == 109 || line.number == 140 || line.number == 190);
 }
+
+}  // namespace
 
 std::optional<std::string> fault_of_g(const GcodeLine& line, std::string_view raw) {
   switch (line.number) {

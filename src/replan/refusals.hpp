@@ -17,8 +17,6 @@ namespace cleancolor {
 
 inline constexpr double same_height_mm = 0.0005;  // closer ones are one
 
-bool is_temperature(const GcodeLine& line);
-
 /// Of a line that begins with a G. raw: its text.
 std::optional<std::string> fault_of_g(const GcodeLine& line, std::string_view raw);
 

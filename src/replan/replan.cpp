@@ -53,11 +53,10 @@ Replanned unchanged(const GcodePrint& print, std::string reason) {
 
 /// Whether all of its lines end with CR and LF, as Windows has them.
 bool has_windows_line_ends(std::string_view text) {
-  const auto ends = std::ranges::count(text, '\n');
-  if (ends == 0 || std::ranges::count(text, '\r') != ends) return false;
-  for (std::size_t at = text.find('\r'); at != text.npos; at = text.find('\r', at + 1))
-    if (at + 1 == text.size() || text[at + 1] != '\n') return false;
-  return true;
+  std::ptrdiff_t ends = 0;
+  for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + 1), ++ends)
+    if (at == 0 || text[at - 1] != '\r') return false;
+  return ends > 0 && std::ranges::count(text, '\r') == ends;
 }
 
 std::string with_windows_line_ends(std::string_view text) {

@@ -11,7 +11,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "audit/machine.hpp"
 #include "base/progress.hpp"

@@ -29,42 +29,36 @@ bool is_kept(const GcodeMove& move) {
 using Place = std::pair<int, std::int64_t>;
 
 Place place_of(const GcodeMove& move) {
-  return {move.feeds, std::llround(move.to_mm.z * 1e3)};
+  return {move.feeds, um_of(move.to_mm.z)};
 }
 
-std::map<Place, double> filament_of_layers_mm(const GcodePrint& print, const std::set<Role>& without) {
-  std::map<Place, double> sums;
+/// What is kept, summed by what key_of(move) gives.
+template <class KeyOf>
+auto filament_mm(const GcodePrint& print, const std::set<Role>& without, KeyOf key_of) {
+  std::map<decltype(key_of(print.moves.front())), double> sums;
   for (std::size_t i = 0; i < print.moves.size(); ++i)
     if (lays_plastic(print, i) && is_kept(print.moves[i]) && !without.contains(print.moves[i].role))
-      sums[place_of(print.moves[i])] += print.moves[i].filament_mm;
+      sums[key_of(print.moves[i])] += print.moves[i].filament_mm;
   return sums;
+}
+
+template <class Key>
+double value_of(const std::map<Key, double>& all, const Key& key) {
+  const auto found = all.find(key);
+  return found == all.end() ? 0 : found->second;
 }
 
 /// The first layer of a tool that takes another amount; nothing where all is the same but for rounding.
 std::optional<std::string> changed_layer(const GcodePrint& before, const GcodePrint& after,
                                          const std::set<Role>& without) {
-  const auto old_mm = filament_of_layers_mm(before, without), new_mm = filament_of_layers_mm(after, without);
+  const auto old_mm = filament_mm(before, without, place_of), new_mm = filament_mm(after, without, place_of);
   for (const auto& [place, mm] : old_mm) {
-    const auto found = new_mm.find(place);
-    const double now = found == new_mm.end() ? 0 : found->second;
+    const double now = value_of(new_mm, place);
     if (std::abs(now - mm) > same_share * mm + rounding_mm)
       return fmt::format("extruder {} pushes {:.3f} mm of filament at z {:.3f} instead of {:.3f}", place.first + 1, now,
                          double(place.second) * 1e-3, mm);
   }
   return std::nullopt;
-}
-
-std::map<ToolRole, double> filament_mm(const GcodePrint& print) {
-  std::map<ToolRole, double> sums;
-  for (std::size_t i = 0; i < print.moves.size(); ++i)
-    if (lays_plastic(print, i) && is_kept(print.moves[i]))
-      sums[{print.moves[i].feeds, print.moves[i].role}] += print.moves[i].filament_mm;
-  return sums;
-}
-
-double way_mm(const GcodePrint& print, std::size_t i) {
-  const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
-  return std::hypot(b.x - a.x, b.y - a.y);
 }
 
 /// 0.4 mm; more where roads are that long that there would be more of them than the text has bytes.
@@ -139,7 +133,7 @@ double beyond_mm(const Cells& all, const Cells& others) {
   double sum = 0;
   for (const auto& [place, layer] : all) {
     const auto found = others.find(place);
-    sum += beyond_mm(layer, found != others.end() ? found->second : LayerCells{});
+    sum += found != others.end() ? beyond_mm(layer, found->second) : beyond_mm(layer, LayerCells{});
   }
   return sum;
 }
@@ -165,16 +159,16 @@ std::optional<std::size_t> starved_line(const GcodePrint& print) {
 std::optional<std::string> difference(const GcodePrint& before, const GcodePrint& after, const AuditMachine& machine,
                                       const ComparisonOptions& options) {
   if (after.tools > int(machine.nozzles.size())) return "another tool is in use";
-  auto old_mm = filament_mm(before);
-  const auto new_mm = filament_mm(after);
+  const auto of_tool_role = [](const GcodeMove& move) { return ToolRole(move.feeds, move.role); };
+  auto old_mm = filament_mm(before, {}, of_tool_role);
+  const auto new_mm = filament_mm(after, {}, of_tool_role);
   std::set<Role> without;
   for (const auto& [what, mm] : options.removed) {
     old_mm[what] -= mm;
     without.insert(what.second);
   }
   for (const auto& [what, mm] : old_mm) {
-    const auto found = new_mm.find(what);
-    const double now = found == new_mm.end() ? 0 : found->second;
+    const double now = value_of(new_mm, what);
     if (std::abs(now - mm) > same_share * mm + rounding_mm)
       return fmt::format("extruder {} pushes {:.3f} mm of filament for {} instead of {:.3f}", what.first + 1, now,
                          role_name(what.second), mm);

@@ -34,13 +34,11 @@ int depth_of(const Path& path, const Zone* zone) {
   const auto is_outer = [](const Stretch& s) { return s.road.role == Role::external_perimeter; };
   if (std::ranges::any_of(path.stretches, is_outer)) return 0;
   if (zone == nullptr) return 1;
-  std::vector<double> depths;
+  std::vector<Vec2> places;
   const std::size_t step = std::max<std::size_t>(1, path.points.size() / depth_samples);
-  for (std::size_t i = 0; i < path.points.size(); i += step)
-    depths.push_back(border_distance_mm(zone->region, path.points[i]));
-  std::ranges::nth_element(depths, depths.begin() + std::ptrdiff_t(depths.size() / 2));
+  for (std::size_t i = 0; i < path.points.size(); i += step) places.push_back(path.points[i]);
   const double spacing = road_spacing_mm(path.road().width_mm, path.road().height_mm);
-  const double inside = depths[depths.size() / 2] - path.road().width_mm / 2;
+  const double inside = median_depth_mm(places, zone->region) - path.road().width_mm / 2;
   const bool overhangs =
       std::ranges::all_of(path.stretches, [](const Stretch& s) { return s.road.role == Role::overhang_perimeter; });
   return std::clamp(int(std::lround(inside / std::max(spacing, 0.05))), overhangs ? 0 : 1, fill_depth - 1);
@@ -83,26 +81,30 @@ struct LayerSlices {
 
 using RunRoads = std::vector<LaidRoad>;
 
-/// Joins what touches the region, as loops of a brim, to it. Returns: the others, skirts.
+/// Joins what touches the region, as loops of a brim, to it; where there are many loops, all. Returns: the others,
+/// skirts.
 RunRoads join_brim(const std::vector<RunRoads>& loops, Polygons& region) {
-  std::vector<char> is_joined(loops.size(), loops.size() > most_skirt_loops ? 1 : 0);
+  std::vector<Polygons> laid;
+  for (const RunRoads& loop : loops) laid.push_back(plastic(loop, detail_mm));
+  if (loops.size() > most_skirt_loops) {
+    for (const Polygons& loop : laid) append(region, filled(loop));
+    region = united(region);
+    return {};
+  }
+  std::vector<char> is_joined(loops.size(), 0);
   for (bool found = true; found;) {
     found = false;
     const Polygons near = offset(region, brim_gap_mm, Corners::round);
     for (std::size_t i = 0; i < loops.size(); ++i) {
-      if (is_joined[i] != 0) continue;
-      const Polygons loop = plastic(loops[i], detail_mm);
-      if (intersection(near, loop).empty()) continue;
+      if (is_joined[i] != 0 || intersection(near, laid[i]).empty()) continue;
       is_joined[i] = 1;
       found = true;
-      region = united(region, filled(loop));
+      region = united(region, filled(laid[i]));
     }
   }
   RunRoads skirts;
-  for (std::size_t i = 0; i < loops.size(); ++i) {
+  for (std::size_t i = 0; i < loops.size(); ++i)
     if (is_joined[i] == 0) skirts.insert(skirts.end(), loops[i].begin(), loops[i].end());
-    if (loops.size() > most_skirt_loops) region = united(region, filled(plastic(loops[i], detail_mm)));
-  }
   return skirts;
 }
 
@@ -231,7 +233,7 @@ Slices around_skirts(const Scene& scene) {
 }
 
 Vec2 place_mm(FilePoint at, int tool, const AuditMachine& machine) {
-  return plastic_mm(machine, {double(at.x_um) / 1000, double(at.y_um) / 1000}, tool);
+  return plastic_mm(machine, mm_of(at), tool);
 }
 
 Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodePrint& print,
@@ -260,13 +262,8 @@ Path path_of(const RecoveredRun& run, int source, double height_mm, const GcodeP
       path.stretches.push_back({std::uint32_t(path.points.size() - 1), road});
     path.points.insert(path.points.end(), places.begin(), places.end());
   }
-  const double gap = distance(path.points.front(), path.points.back());
   const bool walls = std::ranges::all_of(path.stretches, [](const Stretch& s) { return is_wall(s.road.role); });
-  const bool is_loop = comes_back(gap, length_mm(path), path.road().width_mm);
-  if (!walls || !is_loop || path.points.size() < 4) return path;
-  path.closed = true;
-  if (gap == 0) path.points.pop_back();
-  return path;
+  return walls ? closed_where_it_comes_back(std::move(path)) : path;
 }
 
 }  // namespace cleancolor

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/duration_text.hpp"
 #include "model/text_scan.hpp"
 #include "reader/dialect.hpp"
 #include "replan/dialect_words.hpp"
@@ -14,16 +15,6 @@
 
 namespace cleancolor {
 namespace {
-
-std::string duration_text(double seconds) {
-  const long all = std::lround(seconds);
-  const long d = all / 86400, h = all / 3600 % 24, m = all / 60 % 60, s = all % 60;
-  std::string text;
-  if (d > 0) text += fmt::format("{}d ", d);
-  if (d > 0 || h > 0) text += fmt::format("{}h ", h);
-  if (all >= 60) text += fmt::format("{}m ", m);
-  return text + fmt::format("{}s", s);
-}
 
 /// Cura: whole seconds in the head; its engine alone writes the same number each time.
 void correct_cura_head(std::string& text, double share) {
@@ -48,13 +39,9 @@ void correct_config_estimates(std::string& text, double share) {
     if (at == text.npos) continue;
     const std::size_t begin = at + tag.size(), end = std::min(text.find_first_of("\n;", begin), text.size());
     const double told_s = seconds_of(std::string_view(text).substr(begin, end - begin));
-    if (told_s > 0) text.replace(begin, end - begin, duration_text(told_s * share));
+    if (told_s > 0) text.replace(begin, end - begin, duration_in_slicers_words(told_s * share));
   }
 }
-
-}  // namespace
-
-namespace {
 
 /// Minutes of the printer's quiet mode for each usual one, as the file tells them first.
 double silent_share(std::string_view text) {

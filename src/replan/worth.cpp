@@ -15,6 +15,10 @@ constexpr double passed_share = 0.02, passed_mm3 = 0.05;  // of smears and weigh
 // and half to all of the other, but for those that are clean already.
 constexpr double least_smear_left = 0.2, least_holes_left = 0.5;
 
+double spoilt_mm3(const Cleanness& print, const Config& config) {
+  return print.smear_mm3 + config.weight_hole_volume * print.hole_mm3;
+}
+
 }  // namespace
 
 Cleanness cleanness(const GcodePrint& print, const AuditMachine& machine, int threads, const Progress& progress) {
@@ -26,10 +30,6 @@ Cleanness cleanness(const GcodePrint& print, const AuditMachine& machine, int th
             {.warn = [](const std::string&) {}, .advance = progress.advance, .interrupted = progress.interrupted});
   const Figures& total = result.scenarios.front().total;
   return {total.smear_volume(), total.hole_volume, result.print_time_s};
-}
-
-double spoilt_mm3(const Cleanness& print, const Config& config) {
-  return print.smear_mm3 + config.weight_hole_volume * print.hole_mm3;
 }
 
 double print_cost(const Cleanness& print, const Cleanness& before, const Config& config) {

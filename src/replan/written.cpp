@@ -13,6 +13,7 @@
 #include "gcode/polyline.hpp"
 #include "replan/dialect_words.hpp"
 #include "replan/emitter.hpp"
+#include "replan/filament_book.hpp"
 #include "replan/pieces.hpp"
 #include "replan/scene.hpp"
 
@@ -139,7 +140,7 @@ class Writing {
   }
 
   void draw_back(double length_mm, double lift_mm) {
-    const std::int64_t to_e5 = std::llround(length_mm * 1e5);
+    const std::int64_t to_e5 = e5_of(length_mm);
     wipe(to_e5);
     out_.draw_back(to_e5);
     if (lift_mm > 0) out_.lift(lift_mm);
@@ -149,7 +150,7 @@ class Writing {
     draw_back_for_change();
     out_.change_tool(tool);
     if (!words_.pushes_at_change) return;
-    out_.push_forward(std::llround(extruder().retract_length_mm * 1e5));
+    out_.push_forward(e5_of(extruder().retract_length_mm));
     out_.lower();
   }
 
@@ -200,7 +201,7 @@ class Writing {
 
   FilePoint in_file(Vec2 place, int tool) const {
     if (machine_.offsets_in == OffsetsIn::slicer) place = place - nozzle_offset_mm(machine_, tool);
-    return {std::llround(place.x * 1e3), std::llround(place.y * 1e3)};
+    return file_point(place);
   }
 
   void go(const Path& path, FilePoint start, const RecoveredRun* run) {
@@ -293,8 +294,8 @@ class Writing {
     // Walls may be walked either way; loops of the part stay as they were sliced.
     if (path.road().role == Role::rampart && is_turned(path, run)) pieces = backwards(std::move(pieces));
     std::size_t best = 0;
-    double least = apart_mm(pieces.front().from, path.start());
-    Vec2 on = path.start();
+    double least = INFINITY;
+    Vec2 on;
     const double gap_um = length_um(pieces.back().to, pieces.front().from);
     // The seam itself is a place to begin, too.
     const Vec2 in_gap = nearest_on_segment(place_mm(pieces.back().to, run.tool, machine_),
@@ -304,7 +305,7 @@ class Writing {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const Vec2 q = nearest_mm(pieces[i], path.start() - offset) + offset;
       const double off = std::max(0., distance(q, path.start()) - (pieces[i].arc ? chord_mm : 0));
-      if (off < least || i == 0) least = off, best = i, on = q;
+      if (off < least) least = off, best = i, on = q;
     }
     if (least > same_place_mm) fail("a loop begins beside itself");
     return begun_at(std::move(pieces), best, in_file(on, run.tool), gap_um);
@@ -381,7 +382,7 @@ class Writing {
       }
       const double mm = distance(line.points[i], line.points[i + 1]);
       asked_mm_[tool] += mm * road.area_mm2 * e.extrusion_multiplier / filament_mm2;
-      const std::int64_t filament = std::llround(asked_mm_[tool] * 1e5) - written_e5_[tool];
+      const std::int64_t filament = e5_of(asked_mm_[tool]) - written_e5_[tool];
       written_e5_[tool] += filament;
       out_.road(in_file(line.points[i + 1], path.extruder), filament, road.speed_mm_s * 60);
     }

@@ -40,6 +40,21 @@ TEST(Modal, EndsALabelBeforeAnotherBegins) {
   EXPECT_EQ(lines_between(none, three), (Lines{"M486 S3"}));
 }
 
+TEST(Modal, EndsALabelInTheWordsThatBeganIt) {
+  const std::pair<const char*, const char*> ends[] = {
+      {"; printing object a.stl id:0 copy 0", "; stop printing object a.stl id:0 copy 0"},
+      {";printing object a", "; stop printing object a"},
+      {" ;  start printing object, unique label id: 15", "; stop printing object, unique label id: 15"},
+      {"M624 AQAAAAAAAAA=", "M625"},
+      {"M486 S0", "M486 S-1"},
+      {"EXCLUDE_OBJECT_START NAME=a", "EXCLUDE_OBJECT_END NAME=a"}};
+  for (const auto& [begin, end] : ends) {
+    ModalState none = after({begin});
+    for (auto& [key, text] : none) text.clear();
+    EXPECT_EQ(lines_between(after({begin}), none), Lines{end});
+  }
+}
+
 TEST(Modal, IsNothingThatMovesOrHeats) {
   for (const char* text : {"G1 X5", "M104 S200 T0", "T1", "; a comment", "M73 P5"}) {
     GcodeLine line;

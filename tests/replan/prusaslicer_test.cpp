@@ -47,6 +47,28 @@ std::string with_relative_e(const std::string& text) {
   return out;
 }
 
+TEST(ReplanPrusaSlicer, NoNozzleIsDrivenWhereItDoesNotReach) {
+  // The bars are 40.4 mm x 16 mm. There is no room for a rampart.
+  const std::string own = "; bed_shape = -112.5x-72.5,112.5x-72.5,112.5x72.5,-112.5x72.5";
+  const std::string text =
+      replaced(fixture("prusaslicer.gcode"), own, "; bed_shape = -20.5x-8.5,20.5x-8.5,20.5x8.5,-20.5x8.5");
+  const Replanned result = replanned_text(text);
+  ASSERT_TRUE(result.changed);
+  EXPECT_FALSE(result.has_rampart);
+  const GcodePrint print = read_gcode(result.text, "");
+  const AuditMachine machine = audit_machine(print, {});
+  const std::size_t begin = result.text.find(";LAYER_CHANGE"), end = result.text.rfind(";TYPE:");
+  int ways = 0;
+  for (const GcodeMove& move : print.moves) {
+    if (move.offset < begin || move.offset > end || !move.names_xy) continue;
+    const Vec2 at = plastic_mm(machine, {move.to_mm.x, move.to_mm.y}, move.tool);
+    EXPECT_LE(std::abs(at.x), 20.501) << line_at(result.text, move.offset);
+    EXPECT_LE(std::abs(at.y), 8.501) << line_at(result.text, move.offset);
+    ways += move.filament_mm == 0;
+  }
+  EXPECT_GT(ways, 20);
+}
+
 TEST(ReplanPrusaSlicer, KeepsFilamentOfEachToolAndRole) {
   const auto before = part_filament(read_gcode(bar(), "")), after = part_filament(read_gcode(bar_replanned(), ""));
   ASSERT_EQ(before.size(), after.size());

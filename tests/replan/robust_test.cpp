@@ -118,6 +118,21 @@ TEST(ReplanRobust, PiecesOfATowerThatLayNothingAreReadInOneGo) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 
+TEST(ReplanRobust, AWipeAfterLaterRoadsIsNoneOfTheTower) {
+  const std::string text = fixture("prusaslicer-tower.gcode");
+  const std::size_t tower = text.find(";TYPE:Wipe tower"), perimeter = text.find(";TYPE:Perimeter", tower);
+  const RecoveredPrint print =
+      recovered_text(with_line(text, ";WIPE_START\n;WIPE_END", "G1 E-.5", text.find(" E", perimeter)));
+  int pieces = 0;
+  for (const RecoveredLayer& layer : print.layers)
+    for (const RecoveredRun& run : layer.runs) {
+      if (!run.fixed) continue;
+      ++pieces;
+      EXPECT_EQ(std::ranges::find(run.fixed->lines, ";TYPE:Perimeter"), run.fixed->lines.end());
+    }
+  EXPECT_GT(pieces, 5);
+}
+
 TEST(ReplanRobust, TemperaturesOfManyChangesAreReadInOneGo) {
   std::string text = ";FLAVOR:Marlin\n;Generated with Cura_SteamEngine 4.13.0\nT0\nM104 T0 S200\nM104 T1 S200\nM83\n";
   text += ";LAYER_COUNT:1\n;LAYER:0\nG1 F1200 X0 Y0 Z0.3\n;TYPE:WALL-OUTER\n";
