@@ -63,6 +63,7 @@ std::string summary(const std::string& target, const Replanned& result) {
     line += fmt::format("smears {:.1f} instead of {:.1f} mm3, holes {:.1f} instead of {:.1f} mm3, ", after.smear_mm3,
                         before.smear_mm3, after.hole_mm3, before.hole_mm3);
   }
+  line += fmt::format("filament {:.2f} instead of {:.2f} m, ", result.filament_mm / 1e3, result.old_filament_mm / 1e3);
   const int digits = result.old_time_s < 6000 ? 1 : 0;
   return line + fmt::format("{:.{}f} min instead of {:.{}f} min, by this program's estimate\n", result.time_s / 60,
                             digits, result.old_time_s / 60, digits);

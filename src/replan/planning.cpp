@@ -194,7 +194,8 @@ class Planning {
         options_(options),
         progress_(progress),
         extruders_(extruders_by_layer(scene)),
-        use_(use_of(scene, extruders_)) {
+        use_(use_of(scene, extruders_)),
+        reach_(reaches(scene, config_)) {
     if (use_.extruders.size() < 2)
       throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));
     choose_what_is_walled();
@@ -227,8 +228,12 @@ class Planning {
       around_ = around_skirts(scene_);
       rampart_.emplace(around_, use_, config_, options_.threads);
     } catch (const Error& fault) {
-      std::string_view what = fault.what();
-      if (what.ends_with(room_advice)) what.remove_suffix(room_advice.size());
+      std::string what = fault.what();
+      if (what.ends_with(room_advice)) what.resize(what.size() - room_advice.size());
+      if (reach_.empty())
+        what =
+            "the print itself lies beyond the bed: look at the printer (--printer), and at the offsets of its nozzles "
+            "(--nozzle-offset, --offsets-in)";
       progress_.warn(fmt::format("{}: {}; it is re-planned without a rampart", print_.name, what));
       config_.rampart = RampartShape::off;
       rampart_.emplace(around_, use_, config_, options_.threads);
@@ -259,7 +264,6 @@ class Planning {
       for (std::size_t k = 0; k < first_of_layer_.size(); ++k)
         first_of_layer_[k] = recovered_.layers[k].runs.front().tool;
     for (int e = 0; e < int(config_.extruders.size()); ++e) leads_.hop.push_back(hop_time(config_, e));
-    reach_ = reaches(scene_, config_);
     walled_ = walled_layers(scene_.layers, leads_.ooze);
     const int count = int(scene_.layers.size());
     planned_.resize(std::size_t(count));
@@ -326,12 +330,12 @@ class Planning {
   const Progress& progress_;
   std::vector<std::vector<int>> extruders_;  // of each layer
   Use use_;
-  Slices around_;  // what is walled
+  std::vector<Polygons> reach_;  // of each extruder; empty: the print lies beyond it
+  Slices around_;                // what is walled
   bool stands_apart_ = false;
   std::optional<PrintedRampart> rampart_;
 
   std::vector<int> first_of_layer_;  // extruders
-  std::vector<Polygons> reach_;      // of each extruder
   LeadOptions leads_;
   int walled_ = 0;  // layers
   std::vector<std::optional<StagedLayer>> planned_;

@@ -23,6 +23,8 @@
 namespace cleancolor {
 namespace {
 
+constexpr std::string_view no_extra_length =
+    "set the extra length on restart (retract_restart_extra; Cura: retraction_extra_prime_amount) to 0 in the slicer";
 constexpr std::size_t most_settings = 64;           // that a print is under at once
 constexpr std::size_t most_state_bytes = 64 << 20;  // of all that held at some time
 
@@ -247,7 +249,9 @@ class Recovery {
     if (!r_.layers.empty()) way_.rise_mm = std::max(way_.rise_mm, move.to_mm.z - r_.layers.back().z_mm);
     if (move.filament_mm > 0) {
       const std::int64_t beyond = e5_of(move.filament_mm) - book_.back_of(move.feeds);
-      if (beyond > filament_rounding_e5) refuse("plastic is pushed out on the spot, more than was drawn back");
+      if (beyond > filament_rounding_e5)
+        refuse(fmt::format("{:g} mm more filament are pushed forward than were drawn back; {}", double(beyond) * 1e-5,
+                           no_extra_length));
     }
     if (move.filament_mm != 0) way_.move_filament(e5_of(move.filament_mm));
     if (line_.has('A') || line_.has('B') || move.feeds != move.tool)
@@ -365,10 +369,8 @@ class Recovery {
   void require_pushed_forward() {
     if (const std::int64_t back = book_.begin_road(tool_); back > filament_rounding_e5)
       refuse(
-          fmt::format("a road while {:g} mm of filament are drawn back: less is pushed forward than was drawn "
-                      "back; set the extra length on restart (retract_restart_extra; Cura: "
-                      "retraction_extra_prime_amount) to 0 in the slicer",
-                      double(back) * 1e-5));
+          fmt::format("a road while {:g} mm of filament are drawn back: less is pushed forward than was drawn back; {}",
+                      double(back) * 1e-5, no_extra_length));
   }
 
   bool has_run() const { return !r_.layers.empty() && !r_.layers.back().runs.empty(); }

@@ -30,7 +30,8 @@ std::optional<std::string> fault_of_g(const GcodeLine& line, std::string_view ra
       if (line.has_value('P')) return std::nullopt;  // a temperature of RepRapFirmware's
       [[fallthrough]];
     case 11:
-      return "the firmware draws filament back; switch off use_firmware_retraction in the slicer";
+      return "the firmware draws filament back; switch off use_firmware_retraction in the slicer (Cura: "
+             "machine_firmware_retract)";
     case 92:
       if (!line.has('X') && !line.has('Y') && !line.has('Z')) return std::nullopt;
       return "G92 moves the origin among the layers";

@@ -109,6 +109,8 @@ Replanned replanned(const GcodePrint& print, const AuditMachine& machine, const 
   const double told_share =
       print.facts.told_time_s > 0 && result.old_time_s > 0 ? print.facts.told_time_s / result.old_time_s : 1;
   result.text = attempts.tells_progress() ? with_progress(made->print, time, told_share) : *made->print.text;
+  for (const double mm : filament_of_tools_mm(print)) result.old_filament_mm += mm;
+  for (const double mm : filament_of_tools_mm(made->print)) result.filament_mm += mm;
   if (!request.keeps_order) correct_filament(result.text, print, made->print);
   if (result.old_time_s > 0) correct_estimates(result.text, print, result.time_s / result.old_time_s);
   return result;

@@ -46,6 +46,7 @@ struct Replanned {
   std::optional<Gain> gain = {};  // where it was judged: with order, travel and rampart planned
   double time_s = 0;              // predicted, of both
   double old_time_s = 0;
+  double filament_mm = 0, old_filament_mm = 0;  // of all nozzles
   double removed_mm3 = 0;  // of plastic: shield and tower
 };
 

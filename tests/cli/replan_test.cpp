@@ -18,6 +18,7 @@ TEST(ReplanProgram, WritesAFileAndSaysWhatItTakes) {
   const Outcome done = run(folder, "replan in.gcode -o out.gcode");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_NE(done.out.find("smears "), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("filament "), std::string::npos) << done.out;
   EXPECT_NE(done.out.find(" min instead of "), std::string::npos) << done.out;
   EXPECT_NE(file_text(folder.path("out.gcode")).find("; replanned by cleancolor "), std::string::npos);
   EXPECT_EQ(file_text(folder.path("in.gcode")), sliced());

@@ -47,6 +47,15 @@ std::string with_relative_e(const std::string& text) {
   return out;
 }
 
+TEST(ReplanPrusaSlicer, APrintBeyondTheBedIsNoMatterOfRoomForTheRampart) {
+  const std::string own = "; bed_shape = -112.5x-72.5,112.5x-72.5,112.5x72.5,-112.5x72.5";
+  const std::string text = replaced(fixture("prusaslicer.gcode"), own, "; bed_shape = 0x0,100x0,100x100,0x100");
+  std::string said;
+  const Replanned result = replanned_text(text, {}, {.warn = [&](const std::string& warning) { said += warning; }});
+  EXPECT_TRUE(result.changed);
+  EXPECT_NE(said.find("the print itself lies beyond the bed"), said.npos) << said;
+}
+
 TEST(ReplanPrusaSlicer, NoNozzleIsDrivenWhereItDoesNotReach) {
   // The bars are 40.4 mm x 16 mm. There is no room for a rampart.
   const std::string own = "; bed_shape = -112.5x-72.5,112.5x-72.5,112.5x72.5,-112.5x72.5";
