@@ -14,7 +14,7 @@ namespace cleancolor {
 
 /// Prefixes of lines; an empty one: there is none.
 struct DialectWords {
-  std::array<std::string_view, 2> layer_begins;  // the second may stand before the first
+  std::array<std::string_view, 2> layer_begins;  // the second may stand before the first, or behind it
   std::array<std::string_view, 2> header_ends;   // what follows in a layer's header may belong to a tool change
   std::string_view own_type;                     // of the rampart
   std::string_view own_object;                   // what belongs to no object; empty: labels are ended instead

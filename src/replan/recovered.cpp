@@ -136,8 +136,11 @@ class Recovery {
     }
     if (std::ranges::find(words_.of_ways, in_.raw()) != words_.of_ways.end()) return;
     if (begins_with_one_of(in_.raw(), words_.layer_begins)) {
-      const bool may_follow = !words_.layer_begins[1].empty() && !in_.raw().starts_with(words_.layer_begins[1]);
-      if (gap_.has_layer() && !may_follow) refuse("a layer without roads");
+      const auto is_told_again = [&](std::string_view mark) {
+        const auto begins = [&](const GapLine& line) { return line.text.starts_with(mark); };
+        return in_.raw().starts_with(mark) && !mark.empty() && std::ranges::any_of(gap_.header(), begins);
+      };
+      if (std::ranges::any_of(words_.layer_begins, is_told_again)) refuse("a layer without roads");
       if (!gap_.has_layer()) mark_layer();
       gap_.add({in_.raw(), in_.at(), false});
       return;
@@ -273,7 +276,11 @@ class Recovery {
     const bool follows = !gap_.has_tool() && has_run() && !run().fixed;
     if (!follows || move.feeds != move.tool) refuse("filament is drawn back on the way, but not after a road");
     if (run().wipe.empty()) {
-      run().wipe_from = std::exchange(way_.places, {});
+      // A layer may begin between the road and its wipe.
+      std::vector<FilePoint> from = std::exchange(run().leaving, {}).places;
+      from.insert(from.end(), way_.places.begin(), way_.places.end());
+      run().wipe_from = std::move(from);
+      way_.places.clear();
       way_.z_um.clear();
       way_.filament.clear();
       const std::int64_t back = book_.back_of(move.feeds);
