@@ -69,6 +69,12 @@ std::string example(const GcodePrint& print) {
                   print.name, print.tools, example(print)));
 }
 
+IdleNozzle idle_nozzle(const GcodePrint& print, const MachineRequest& request) {
+  if (request.idle_nozzle) return *request.idle_nozzle;
+  if (request.printer) return request.printer->idle_nozzle;
+  return print.facts.docks_tools ? IdleNozzle::docked : IdleNozzle::same_height;
+}
+
 class Finder {
  public:
   Finder(const GcodePrint& print, const MachineRequest& request, const Progress& progress)
@@ -100,12 +106,14 @@ class Finder {
       if (!print_.facts.offsets_in) told_in_ = OffsetsIn::firmware;
     } else if (tools == 1) {
       take({{0, 0}}, "one nozzle");
-    } else if (request_.idle_nozzle == IdleNozzle::parked || request_.idle_nozzle == IdleNozzle::docked) {
+    } else if (const IdleNozzle idle = idle_nozzle(print_, request_);
+               idle == IdleNozzle::parked || idle == IdleNozzle::docked) {
       // Such printers take their offsets into account themselves, unless the file shows that the slicer did.
       if (const std::vector<Vec2> guessed = guessed_offsets_mm(print_); shows_offsets(guessed)) {
         take_guess(guessed);
       } else {
-        take(std::vector<Vec2>(tools), "--idle-nozzle");
+        take(std::vector<Vec2>(tools),
+             request_.idle_nozzle ? "--idle-nozzle" : "printer_model of the configuration block");
         if (!print_.facts.offsets_in) told_in_ = OffsetsIn::firmware;
       }
     } else {
@@ -240,8 +248,7 @@ void put_colours(const GcodePrint& print, const MachineRequest& request, AuditMa
 AuditMachine audit_machine(const GcodePrint& print, const MachineRequest& request, const Progress& progress) {
   AuditMachine machine = Finder(print, request, progress).machine();
   machine.limits = motion_limits(request.printer ? *request.printer : config_in(print, progress).value_or(Config{}));
-  machine.idle_nozzle =
-      request.idle_nozzle.value_or(request.printer ? request.printer->idle_nozzle : IdleNozzle::same_height);
+  machine.idle_nozzle = idle_nozzle(print, request);
   for (std::size_t n = 0; n < machine.nozzles.size(); ++n) {
     Extruder extruder;
     if (request.printer) extruder = request.printer->extruders[std::min(n, request.printer->extruders.size() - 1)];

@@ -47,10 +47,10 @@ struct AuditMachine {
 };
 
 /// Offsets of the nozzles: --nozzle-offset, else the printer profile, else the file, else the guess; always as seen
-/// from the first. Of nozzles that are parked or docked while they idle (--idle-nozzle) none need be known, unless
-/// the geometry shows that the slicer applied them. Who applies
-/// them: the user, else the file (a non-zero extruder_offset: slicer, whatever the profile says, for there lies the
-/// plastic; zeroes: firmware), else the geometry (audit/offset_guess.hpp), else the profile. What was guessed, and what
+/// from the first. Of nozzles that are parked or docked while they idle (--idle-nozzle, else the profile, else a file
+/// for a Prusa XL) none need be known, unless the geometry shows that the slicer applied them. Who applies them: the
+/// user, else the file (a non-zero extruder_offset: slicer, whatever the profile says, for there lies the plastic;
+/// zeroes: firmware), else the geometry (audit/offset_guess.hpp), else the profile. What was guessed, and what
 /// contradicts the geometry or the file by more than 0.1 mm, is warned of.
 ///
 /// Limits: the profile's, else those of the file's configuration, else the defaults of model/config.hpp. Filament: the

@@ -224,6 +224,7 @@ void read_flavour(GcodeFacts& facts) {
   const std::string_view flavour = last_value(facts, "gcode_flavor");
   facts.marlin = facts.marlin || flavour == "marlin" || flavour == "marlin2" || flavour == "marlin-legacy";
   facts.per_minute_limits = flavour == "reprapfirmware";
+  facts.docks_tools = last_value(facts, "printer_model").starts_with("XL");
   facts.volumetric_e = facts.volumetric_e || last_value(facts, "use_volumetric_e") == "1";
 }
 

@@ -104,6 +104,7 @@ struct GcodeFacts {
   std::string offsets_from;                  // where the file tells it: "extruder_offset of the configuration block"
   std::vector<Vec2> firmware_offset_mm;      // as the file sets it in the firmware (M218); empty: it does not
   bool volumetric_e = false;                 // E counts mm3
+  bool docks_tools = false;                  // while they idle: a Prusa XL, by its configuration
   bool per_minute_limits = false;            // M203 and M566 are in mm/min (RepRapFirmware)
   std::vector<double> filament_diameter_mm;  // by tool; empty where the file does not say
   std::vector<double> filament_density_g_cm3;

@@ -269,11 +269,13 @@ void Emitter::change_tool(int tool) {
 void Emitter::change_tool(int tool, std::span<const std::string> leave, std::span<const std::string> enter) {
   rise_at_once();
   zero_count();
-  lines(leave);
-  if (!enter.empty()) {
-    lines(enter.first(1));
-    zero_count();
-    lines(enter.subspan(1));
+  for (const std::string& text : leave)
+    if (!text.empty()) line(text);
+  for (const std::string& text : enter) {
+    if (text.empty()) continue;
+    line(text);
+    GcodeLine parsed;
+    if (!parse_line(text, parsed) && tool_taken(parsed)) zero_count();
   }
   tool_ = tool;
   known_ = z_known_ = false;

@@ -136,7 +136,10 @@ void require_no_own_changes(const GcodePrint& print, const LayersText& layers) {
 void part_headers(RecoveredPrint& recovered, const std::vector<ChangedHeader>& changed, const GcodePrint& print,
                   const DialectWords& words) {
   const auto marks = [&](std::string_view line) {
-    return begins_with_one_of(line, words.header_ends) || begins_with_one_of(line, words.layer_begins);
+    // PrusaSlicer's profiles tell the height behind marks of their own.
+    const bool height_alone = line.starts_with(';') && number<double>(trimmed(line.substr(1)));
+    return height_alone || line.starts_with(";AFTER_LAYER_CHANGE") || begins_with_one_of(line, words.header_ends) ||
+           begins_with_one_of(line, words.layer_begins);
   };
   for (const ChangedHeader& c : changed) {
     std::vector<std::string>& header = recovered.layers[c.layer].header;
@@ -150,12 +153,10 @@ void part_headers(RecoveredPrint& recovered, const std::vector<ChangedHeader>& c
     if (fixed && !fixed->lays) {
       fixed->lines.insert(fixed->lines.begin(), leave.begin(), leave.end());
       fixed->tool_at = leave.size();
-    } else if (known != nullptr && *known != leave) {
+    } else if (!recovered.changes.take_leave(c.from_tool, leave)) {
       refuse_line(print, c.offset,
                   "a layer begins with a tool change that is not as those before; look at the custom G-code of tool "
                   "and filament");
-    } else {
-      recovered.changes.take_leave(c.from_tool, leave);
     }
     header.erase(rest, header.end());
   }

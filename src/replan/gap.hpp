@@ -4,7 +4,9 @@
 //
 //   end of a run | layer: header | tool: T and what follows | next run
 //
-// A layer may begin in it, and a tool may be changed, each once at most; where both are, the tool comes later.
+// A layer may begin in it, and a tool may be changed, each once at most; where both are, the tool comes later. Tool
+// changers are told to dock the tool in use before they take another one (Prusa XL: P0): from there on it is the
+// change.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +35,12 @@ std::vector<std::string> notes_of(std::span<const GapLine> lines, const GcodePri
 class Gap {
  public:
   void add(const GapLine& line) { lines_.push_back(line); }
-  void begin_layer() { layer_at_ = lines_.size(); }
-  void begin_tool() { tool_at_ = lines_.size(); }
+  void begin_layer() {
+    layer_at_ = lines_.size();
+    docks_at_.reset();
+  }
+  void dock() { docks_at_ = docks_at_.value_or(lines_.size()); }
+  void begin_tool() { tool_at_ = docks_at_.value_or(lines_.size()); }
 
   bool has_layer() const { return layer_at_.has_value(); }
   bool has_tool() const { return tool_at_.has_value(); }
@@ -52,7 +58,7 @@ class Gap {
   }
 
   std::vector<GapLine> lines_;
-  std::optional<std::size_t> layer_at_, tool_at_;
+  std::optional<std::size_t> layer_at_, docks_at_, tool_at_;
 };
 
 }  // namespace cleancolor

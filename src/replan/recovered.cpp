@@ -105,7 +105,9 @@ class Recovery {
   }
 
   void in_layers() {
+    const std::string_view before = std::exchange(speed_alone_, {});
     in_.read();
+    if (line_.letter == 'P') speed_alone_ = before;
     if (in_.raw().starts_with(";WIPE_SCRIPT_BEGIN"))
       refuse("nozzles are wiped between layers, which is not re-planned; switch off clean_between_layers in Cura");
     if (in_.raw().starts_with(words_.tower)) return tower();
@@ -123,6 +125,7 @@ class Recovery {
       return;
     }
     if (r_.says_on_and_off && line_.letter == 'M' && (line_.number == 101 || line_.number == 103)) return;
+    if (line_.letter == 'P') return dock();
     if (line_.letter == 0 && line_.word.empty())
       refuse("a move without its G command among the layers is not re-planned");
     command();
@@ -152,6 +155,13 @@ class Recovery {
       return;
     }
     keep(false);
+  }
+
+  /// Of tool changers: the tool in use is put down.
+  void dock() {
+    gap_.dock();
+    if (!speed_alone_.empty()) gap_.add({speed_alone_, in_.at(), false});
+    keep(true);
   }
 
   /// A line that stays.
@@ -215,12 +225,16 @@ class Recovery {
       breaks_ = true;
       return;
     }
+    if (line_.number == 4 && gap_.has_tool()) return keep(true);  // a wait
     if (const auto fault = fault_of_g(line_, in_.raw())) refuse(*fault);
     if (line_.number == 92) return;
     if (line_.number == 10) return keep(true);  // a temperature
     if (line_.number == 2 || line_.number == 3) return lay_arc();
     const auto index = in_.move();
-    if (!index) return;  // a speed alone
+    if (!index) {
+      speed_alone_ = in_.raw();
+      return;
+    }
     const GcodeMove& move = print_.moves[*index];
     const Vec3 from = *index > 0 ? print_.moves[*index - 1].to_mm : Vec3{};
     if (lays_plastic(print_, *index)) return lay(*index, move, from);
@@ -471,6 +485,8 @@ class Recovery {
   double feed_ = 0;
   FilamentBook book_{max_tools, false};
   std::array<bool, max_tools> is_timed_{};  // its heater, where the dialect times them: it prints among the layers
+
+  std::string_view speed_alone_;  // the line before, if it is one
 
   // Since the last road:
   Gap gap_;  // lines to be kept

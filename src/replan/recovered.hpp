@@ -70,7 +70,7 @@ struct WipeMove {
 struct FixedLines {
   std::vector<std::string> lines;
   bool lays = false;        // plastic: filament is pushed forward before; else drawn back as for a change
-  std::size_t tool_at = 0;  // index of the line that changes the tool, where it lays nothing
+  std::size_t tool_at = 0;  // index of the line that the change begins with, where it lays nothing
   int tool_after = 0;       // in use from there on,
   FilePoint to = {};        // where the carriage is then, as the file tells places of that tool
   std::uint32_t state = 0;  // index into RecoveredPrint::states, before it

@@ -47,7 +47,7 @@ struct Replanned {
   double time_s = 0;              // predicted, of both
   double old_time_s = 0;
   double filament_mm = 0, old_filament_mm = 0;  // of all nozzles
-  double removed_mm3 = 0;  // of plastic: shield and tower
+  double removed_mm3 = 0;                       // of plastic: shield and tower
 };
 
 /// Throws Error("file:line: ...") for files that cannot be re-planned for sure; it says what to do.

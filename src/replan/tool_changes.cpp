@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "reader/line.hpp"
@@ -28,21 +29,38 @@ std::string with_temperature(const std::string& text, int tool, const std::strin
   return changed.replace(std::size_t(number->data() - text.data()), number->size(), to);
 }
 
-bool are_same(const ToolChanges::Lines& a, const ToolChanges::Lines& b, int tool) {
-  const auto but_hot = [&](const std::string& text) { return with_temperature(text, tool, ""); };
-  return std::ranges::equal(a, b, {}, but_hot, but_hot);
+/// Comments, and what the printer shows: it may tell the layer, or the tool that follows.
+bool only_tells(const std::string& text) {
+  GcodeLine line;
+  if (parse_line(text, line)) return false;
+  const bool shows = line.letter == 'M' && (line.number == 117 || line.number == 118);
+  return shows || (line.letter == 0 && line.word.empty() && line.present == 0);
+}
+
+/// Whether they are the same but for what only tells. What tells another thing in both becomes empty in the first.
+/// but: makes of a line what must be the same.
+template <class But>
+bool join(ToolChanges::Lines& known, const ToolChanges::Lines& lines, But but) {
+  if (known.size() != lines.size()) return false;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (but(known[i]) == but(lines[i])) continue;
+    if (!only_tells(known[i]) || !only_tells(lines[i])) return false;
+    known[i].clear();
+  }
+  return true;
 }
 
 }  // namespace
 
 bool ToolChanges::take_leave(int tool, const Lines& lines) {
-  return leave_.try_emplace(tool, lines).first->second == lines;
+  return join(leave_.try_emplace(tool, lines).first->second, lines, std::identity());
 }
 
 bool ToolChanges::take_enter(int tool, const Lines& lines, bool in_first_layer) {
-  const auto& other = in_first_layer ? enter_ : enter_first_;
-  if (const auto found = other.find(tool); found != other.end() && !are_same(found->second, lines, tool)) return false;
-  return (in_first_layer ? enter_first_ : enter_).try_emplace(tool, lines).first->second == lines;
+  auto &own = in_first_layer ? enter_first_ : enter_, &other = in_first_layer ? enter_ : enter_first_;
+  const auto but_hot = [&](const std::string& text) { return with_temperature(text, tool, ""); };
+  if (const auto found = other.find(tool); found != other.end() && !join(found->second, lines, but_hot)) return false;
+  return join(own.try_emplace(tool, lines).first->second, lines, std::identity());
 }
 
 const ToolChanges::Lines* ToolChanges::leave(int tool) const {

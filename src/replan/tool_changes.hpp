@@ -2,8 +2,9 @@
 //
 // Tool changes: the lines that a file leaves each tool with, and takes it with: its T and what follows.
 //
-// They are the same each time, or they cannot be moved. A temperature that they set may be another one in the first
-// layer: a change that comes there, or later, for the first time takes it from the configuration.
+// They are the same each time, or they cannot be moved. Comments and messages may differ, for they tell the layer or
+// the other tool: then they are left out, being true of one change alone. A temperature that they set may be another
+// one in the first layer: a change that comes there, or later, for the first time takes it from the configuration.
 #pragma once
 
 #include <map>
@@ -19,7 +20,7 @@ class ToolChanges {
  public:
   using Lines = std::vector<std::string>;
 
-  /// Whether the lines are as they were before, if they were.
+  /// Whether the lines are as they were before, if they were. What is left out is empty from then on.
   bool take_leave(int tool, const Lines& lines);
   bool take_enter(int tool, const Lines& lines, bool in_first_layer);
 

@@ -44,6 +44,16 @@ TEST(ToolChanges, MayBeOfAnotherTemperatureInTheFirstLayerButOfNothingElse) {
   }
 }
 
+TEST(ToolChanges, LeaveOutWhatTellsOfOneChangeAlone) {
+  ToolChanges changes;
+  EXPECT_TRUE(changes.take_enter(1, {"; layer 1", "M117 layer 1", "T1", "; pick"}, false));
+  EXPECT_TRUE(changes.take_enter(1, {"; layer 2", "M117 layer 2", "T1", "; pick"}, false));
+  EXPECT_TRUE(changes.take_enter(1, {"; layer 3", "M117 layer 3", "T1", "; pick"}, false));
+  EXPECT_EQ(changes.enter(1, false, hotter_first), (Lines{"", "", "T1", "; pick"}));
+  EXPECT_FALSE(changes.take_enter(1, {"; layer 4", "M106 S1", "T1", "; pick"}, false));
+  EXPECT_FALSE(changes.take_enter(1, {"; layer 4", "T1", "; pick"}, false));
+}
+
 TEST(ToolChanges, ComeForTheFirstTimeAsHotAsTheConfigurationSays) {
   ToolChanges changes;
   for (const char* heat : {"M109 S210", "M104 T1 S210 ; set temperature", "M109 S210 T1"}) {
