@@ -54,31 +54,38 @@ def arc(begin, end, to_center, code):
     return center, (angles[1] - angles[0] if code == "3" else angles[0] - angles[1]) % (2 * math.pi)
 
 
-def extrusions(gcode):
-    """(tool, type, z, (x, y) from, (x, y) to, filament in mm, arc) of each road of part and supports, in the file's coordinates;
-    arc: (centre, angle in rad), or nothing.
+def moves(gcode):
+    """(tool, type, {axis: from}, {axis: to}, filament in mm, G code, (I, J), line) of each move that drives or feeds, in the file's
+    coordinates.
     """
     at, relative, tool, kind = {"X": 0.0, "Y": 0.0, "Z": 0.0, "E": 0.0}, False, 0, ""
-    for line in gcode.read_text(errors="replace").splitlines():
+    for number, line in enumerate(gcode.read_text(errors="replace").splitlines(), 1):
         if line.startswith((";TYPE:", "; TYPE:", "; FEATURE:")):
             kind = line.split(":", 1)[1].lower().replace("unknown", "")
-        elif line.startswith(("G0", "G1 ", "G2 ", "G3 ")):
+        elif line.startswith(("G0 ", "G1 ", "G2 ", "G3 ")):
             words = {axis: float(value) for axis, value in WORD.findall(line.split(";", 1)[0])}
             fed = words.get("E", 0.0) - (0.0 if relative or "E" not in words else at["E"])
             center = words.pop("I", 0.0), words.pop("J", 0.0)
             to = {**at, **words}
-            if relative:
-                to["E"] = at["E"] + words.get("E", 0.0)
-            ends = (at["X"], at["Y"]), (to["X"], to["Y"])
-            if fed > 0 and ends[0] != ends[1] and not any(word in kind for word in AUXILIARY):
-                yield tool, kind, round(to["Z"], 3), *ends, fed, arc(*ends, center, line[1]) if line[1] in "23" else None
+            if fed != 0 or to["X"] != at["X"] or to["Y"] != at["Y"]:
+                yield tool, kind, at, to, fed, line[1], center, number
             at = to
         elif line.startswith("G92"):
-            at.update({axis: float(value) for axis, value in WORD.findall(line)})
+            at = {**at, **{axis: float(value) for axis, value in WORD.findall(line)}}
         elif line.startswith(("M82", "M83")):
             relative = line.startswith("M83")
         elif found := re.match(r"(?:T|M135 T|M108 T)(\d+)", line):
             tool = int(found[1])
+
+
+def extrusions(gcode):
+    """(tool, type, z, (x, y) from, (x, y) to, filament in mm, arc) of each road of part and supports, in the file's coordinates;
+    arc: (centre, angle in rad), or nothing.
+    """
+    for tool, kind, at, to, fed, code, center, _ in moves(gcode):
+        ends = (at["X"], at["Y"]), (to["X"], to["Y"])
+        if fed > 0 and ends[0] != ends[1] and not any(word in kind for word in AUXILIARY):
+            yield tool, kind, round(to["Z"], 3), *ends, fed, arc(*ends, center, code) if code in "23" else None
 
 
 def roads(gcode):
@@ -257,6 +264,14 @@ def speed(program, writes):
     return late
 
 
+def files(names, every_variant):
+    """(name, slicer, variant) of what is re-planned."""
+    rows = [(name, slicer, variant) for slicer, variants in VARIANTS.items()
+            for variant in (variants if every_variant else variants[:1]) for name in names]
+    return rows + [(name, slicer, variant) for slicer, variants in ADDED.items() for variant in variants
+                   for name in names if name in SUPPORTED]
+
+
 def main():
     parser = argparse.ArgumentParser(prog="scripts/bench replan", description=__doc__)
     parser.add_argument("--models", default=",".join(models.PAIRS), help="comma-separated, of: " + ", ".join(models.PAIRS))
@@ -269,10 +284,7 @@ def main():
     require_shared("scripts/bench replan")
     if options.speed:
         sys.exit(speed(options.program, options.write))
-    rows = [(options.program, name, slicer, variant) for slicer, variants in VARIANTS.items()
-            for variant in (variants if options.every_variant else variants[:1]) for name in options.models.split(",")]
-    rows += [(options.program, name, slicer, variant) for slicer, variants in ADDED.items() for variant in variants
-             for name in options.models.split(",") if name in SUPPORTED]
+    rows = [(options.program, *file) for file in files(options.models.split(","), options.every_variant)]
     table = ["| file | smears, mm3, before / after | holes, mm3 | time, min | seconds |", "|---|---|---|---|---|"]
     failures = []
     print(*table, sep="\n")

@@ -5,52 +5,41 @@ reader: place, filament and tool; of the height alone where the nozzle prints. E
 """
 
 import argparse
-import re
 import sys
 from pathlib import Path
 
 import models
 from judge import two_at_a_time
-from peers import ADDED, VARIANTS, require_shared, sliced
-from replan import SLICERS, SUPPORTED, replanned
+from peers import require_shared, sliced
+from replan import SLICERS, files, moves, replanned
 
-WORD = re.compile(r"([XYZEIJ])(-?[0-9.]+)")
 FILAMENT_MM = 2e-5  # rounded to 1e-5 mm
 
 
-def moves(gcode):
-    """[(tool, x, y, height of a road, filament in mm, line)] of each move that drives or moves filament."""
-    at, relative, tool, found = {"X": 0.0, "Y": 0.0, "Z": 0.0, "E": 0.0}, False, 0, []
-    for number, line in enumerate(gcode.read_text(errors="replace").splitlines(), 1):
-        if line.startswith(("G0 ", "G1 ", "G2 ", "G3 ")):
-            words = {axis: float(value) for axis, value in WORD.findall(line.split(";", 1)[0])}
-            fed = words.get("E", 0.0) if relative else words.get("E", at["E"]) - at["E"]
-            drives = any(words.get(axis, at[axis]) != at[axis] for axis in "XY")
-            at.update(words)
-            if drives or abs(fed) > FILAMENT_MM / 2:
-                found.append((tool, at["X"], at["Y"], at["Z"] if drives and fed > 0 else None, fed, number))
-        elif line.startswith("G92"):
-            at.update({axis: float(value) for axis, value in WORD.findall(line)})
-        elif line.startswith(("M82", "M83")):
-            relative = line.startswith("M83")
-        elif taken := re.match(r"(?:T|M135 T|M108 T)(\d+)", line):
-            tool = int(taken[1])
+def told(gcode):
+    """[(tool, x, y, height of a road, arc, filament in mm, line)] of each move that drives or feeds."""
+    found = []
+    for tool, _, at, to, fed, code, center, line in moves(gcode):
+        drives = to["X"] != at["X"] or to["Y"] != at["Y"]
+        if drives or abs(fed) > FILAMENT_MM / 2:
+            arc = (code, *center) if code in "23" else None
+            found.append((tool, to["X"], to["Y"], to["Z"] if drives and fed > 0 else None, arc, fed, line))
     return found
 
 
 def alike(a, b):
-    return a[:4] == b[:4] and abs(a[4] - b[4]) <= FILAMENT_MM
+    return a[:5] == b[:5] and abs(a[5] - b[5]) <= FILAMENT_MM
 
 
 def differences(before, after):
     """How many places differ, and a sentence on the first."""
-    old, new, i, k, places, first = moves(before), moves(after), 0, 0, 0, ""
+    old, new, i, k, places, first = told(before), told(after), 0, 0, 0, ""
     while i < len(old) and k < len(new):
         if alike(old[i], new[k]):
             i, k = i + 1, k + 1
             continue
         places += 1
-        first = first or f"line {old[i][5]}: {old[i][:5]} became {new[k][:5]} in line {new[k][5]}"
+        first = first or f"line {old[i][6]}: {old[i][:6]} became {new[k][:6]} in line {new[k][6]}"
         step = next(((a, s - a) for s in range(1, 60) for a in range(s + 1)
                      if all(i + a + n < len(old) and k + s - a + n < len(new) and alike(old[i + a + n], new[k + s - a + n])
                             for n in range(3))), None)
@@ -81,11 +70,7 @@ def main():
     options = parser.parse_args()
     models.require(options.models, models.PAIRS, "scripts/bench round-trip")
     require_shared("scripts/bench round-trip")
-    names = options.models.split(",")
-    rows = [(options.program, name, slicer, variant) for slicer, variants in VARIANTS.items() for variant in variants
-            for name in names]
-    rows += [(options.program, name, slicer, variant) for slicer, variants in ADDED.items() for variant in variants
-             for name in names if name in SUPPORTED]
+    rows = [(options.program, *file) for file in files(options.models.split(","), every_variant=True)]
     failures = []
     print("| file | places that differ |", "|---|---|", sep="\n")
     for text, faults in two_at_a_time(row, rows):

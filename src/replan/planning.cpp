@@ -80,12 +80,12 @@ constexpr double beside_skirt_mm = 0.3;  // between two roads
 
 bool meets(const Path& path, const Polygons& skirt) {
   if (skirt.empty()) return false;
-  const double least_mm = path.road().width_mm / 2 + beside_skirt_mm;
+  const double apart_mm = path.road().width_mm / 2 + beside_skirt_mm;
   for (std::size_t i = 0; i < path.segments(); ++i) {
     const Vec2 a = path.points[i], b = path.points[(i + 1) % path.points.size()];
     const int steps = 1 + int(distance(a, b) / path.road().width_mm);
     for (int s = 0; s <= steps; ++s)
-      if (border_distance_mm(skirt, lerp(a, b, double(s) / steps)) < least_mm) return true;
+      if (border_distance_mm(skirt, lerp(a, b, double(s) / steps)) < apart_mm) return true;
   }
   return false;
 }

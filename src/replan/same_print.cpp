@@ -26,9 +26,9 @@ bool is_kept(const GcodeMove& move) {
 }
 
 /// Of one tool, at one height, um.
-using Place = std::pair<int, std::int64_t>;
+using ToolHeight = std::pair<int, std::int64_t>;
 
-Place place_of(const GcodeMove& move) {
+ToolHeight tool_height(const GcodeMove& move) {
   return {move.feeds, um_of(move.to_mm.z)};
 }
 
@@ -51,7 +51,7 @@ double value_of(const std::map<Key, double>& all, const Key& key) {
 /// The first layer of a tool that takes another amount; nothing where all is the same but for rounding.
 std::optional<std::string> changed_layer(const GcodePrint& before, const GcodePrint& after,
                                          const std::set<Role>& without) {
-  const auto old_mm = filament_mm(before, without, place_of), new_mm = filament_mm(after, without, place_of);
+  const auto old_mm = filament_mm(before, without, tool_height), new_mm = filament_mm(after, without, tool_height);
   for (const auto& [place, mm] : old_mm) {
     const double now = value_of(new_mm, place);
     if (std::abs(now - mm) > same_share * mm + rounding_mm)
@@ -72,7 +72,7 @@ double cell_size_mm(const GcodePrint& print) {
 /// Length of road in each cell of one tool and layer height, in cells that roads pass through their middles; ascending.
 using Cell = std::pair<std::int64_t, std::int64_t>;
 using LayerCells = std::vector<std::pair<Cell, double>>;
-using Cells = std::map<Place, LayerCells>;
+using Cells = std::map<ToolHeight, LayerCells>;
 
 void join_same(LayerCells& cells) {
   std::ranges::sort(cells);
@@ -93,7 +93,7 @@ Cells cells(const GcodePrint& print, const std::set<Role>& without, double cell_
     if (!lays_plastic(print, i) || !is_kept(print.moves[i])) continue;
     if (without.contains(print.moves[i].role)) continue;
     const Vec3 a = print.moves[i - 1].to_mm, b = print.moves[i].to_mm;
-    LayerCells& layer = all[place_of(print.moves[i])];
+    LayerCells& layer = all[tool_height(print.moves[i])];
     const double length = way_mm(print, i);
     const int steps = int(length / step_mm) + 1;
     for (int s = 0; s < steps; ++s) {
