@@ -232,9 +232,10 @@ void add_arcs(Roadmap& map, const TravelCost& cost) {
   std::vector<std::uint32_t> next(map.first_arc.begin(), map.first_arc.end() - 1);
   for (const auto& [a, b] : edges) {
     const TravelCost::Way way = cost.straight(map.nodes_mm[a], map.nodes_mm[b]);
-    map.arcs[next[a]++] = {b, float(way.cost), float(way.foreign)};
+    const double length_mm = distance(map.nodes_mm[a], map.nodes_mm[b]);
+    map.arcs[next[a]++] = {b, float(way.cost), float(way.foreign), length_mm};
     const TravelCost::Way back = cost.is_directed() ? cost.straight(map.nodes_mm[b], map.nodes_mm[a]) : way;
-    map.arcs[next[b]++] = {a, float(back.cost), float(back.foreign)};
+    map.arcs[next[b]++] = {a, float(back.cost), float(back.foreign), length_mm};
   }
 }
 

@@ -34,6 +34,7 @@ struct Arc {
   std::uint32_t to = 0;
   float cost = 0;
   float foreign = 0;  // the largest visibility of foreign plastic that it crosses
+  double length_mm = 0;
 };
 
 struct Roadmap {
