@@ -84,8 +84,8 @@ Roadmap random_roads(std::mt19937& random, std::uint32_t nodes) {
   std::uniform_real_distribution<double> any(0, 50);
   std::vector<std::vector<Arc>> arcs(nodes);
   const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    arcs[a].push_back({b, float(any(random)), 0});
-    arcs[b].push_back({a, float(any(random)), 0});
+    arcs[a].push_back({b, float(any(random)), 0, 0});
+    arcs[b].push_back({a, float(any(random)), 0, 0});
   };
   for (std::uint32_t i = 1; i < nodes; ++i) join(i, std::uint32_t(random() % i));
   for (std::uint32_t i = 0; i < 2 * nodes; ++i) join(std::uint32_t(random() % nodes), std::uint32_t(random() % nodes));
@@ -97,6 +97,9 @@ Roadmap random_roads(std::mt19937& random, std::uint32_t nodes) {
     roads.arcs.insert(roads.arcs.end(), own.begin(), own.end());
     roads.first_arc.push_back(std::uint32_t(roads.arcs.size()));
   }
+  for (std::uint32_t node = 0; node < nodes; ++node)
+    for (std::uint32_t i = roads.first_arc[node]; i < roads.first_arc[node + 1]; ++i)
+      roads.arcs[i].length_mm = distance(roads.nodes_mm[node], roads.nodes_mm[roads.arcs[i].to]);
   return roads;
 }
 
