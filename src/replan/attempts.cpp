@@ -78,8 +78,10 @@ Attempt Attempts::planned(RampartExtent extent) const {
   own.warn = [&](const std::string& warning) { made.warnings.push_back(warning); };
   std::string text;
   {
-    const ReplanOptions options{
-        .visibility = visibility_ ? &*visibility_ : nullptr, .rampart = extent, .threads = request_.threads};
+    const ReplanOptions options{.visibility = visibility_ ? &*visibility_ : nullptr,
+                                .knows_bed = print_.facts.dialect != Dialect::cura || request_.printer,
+                                .rampart = extent,
+                                .threads = request_.threads};
     const ReplannedLayers planned = planned_layers(scene_, recovered_, source(), machine_, config_, options, own);
     progress_.advance("writing", 0);
     made.has_rampart = planned.has_rampart;

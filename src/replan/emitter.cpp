@@ -84,8 +84,14 @@ void Emitter::header(std::span<const std::string> all) {
     line(text);
     GcodeLine parsed;
     if (parse_line(text, parsed)) continue;
+    if (tool_taken(parsed)) forget_tool();
     if (const auto what = modal_line(parsed)) take(state_, *what, text);
   }
+}
+
+void Emitter::forget_tool() {
+  std::erase_if(state_, [](const auto& entry) { return is_of_tool(entry.first); });
+  known_state_.reset();
 }
 
 void Emitter::put_feed(double feed_mm_min) {
@@ -277,6 +283,7 @@ void Emitter::change_tool(int tool, std::span<const std::string> leave, std::spa
     GcodeLine parsed;
     if (!parse_line(text, parsed) && tool_taken(parsed)) zero_count();
   }
+  forget_tool();
   tool_ = tool;
   known_ = z_known_ = false;
   feed_ = -1;

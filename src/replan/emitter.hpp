@@ -69,6 +69,7 @@ class Emitter {
 
  private:
   void header(std::span<const std::string> all);  // may be modal ones: the state follows
+  void forget_tool();                             // what holds for a tool alone is told anew for the next
   void put_feed(double feed_mm_min);
   void put_e(std::int64_t delta_e5);
   void end_line() { text_ += '\n'; }

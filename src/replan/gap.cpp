@@ -5,9 +5,21 @@
 #include <algorithm>
 
 #include "model/text_scan.hpp"
+#include "reader/line.hpp"
 #include "replan/file_parts.hpp"
 
 namespace cleancolor {
+
+void Gap::begin_tool(int tool) {
+  tool_at_ = docks_at_.value_or(lines_.size());
+  // Temperatures in the header of a layer are the layer's.
+  for (std::size_t i = layer_at_ ? *tool_at_ : 0; i < *tool_at_; ++i) {
+    GcodeLine line;
+    const bool fails = parse_line(lines_[i].text, line).has_value();
+    if (fails || line.letter != 'M' || (line.number != 104 && line.number != 109)) continue;
+    if (line.has_value('T') && int(line['T']) == tool) tool_at_ = i;
+  }
+}
 
 std::vector<std::string> texts_of(std::span<const GapLine> lines) {
   std::vector<std::string> texts;

@@ -4,9 +4,9 @@
 //
 //   end of a run | layer: header | tool: T and what follows | next run
 //
-// A layer may begin in it, and a tool may be changed, each once at most; where both are, the tool comes later. Tool
-// changers are told to dock the tool in use before they take another one (Prusa XL: P0): from there on it is the
-// change.
+// A layer may begin in it, and a tool may be changed, each once at most; where both are, the tool comes later. The
+// change may begin before the T: tool changers are told to dock the tool in use (Prusa XL: P0), or the tool that comes
+// is heated.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ class Gap {
     docks_at_.reset();
   }
   void dock() { docks_at_ = docks_at_.value_or(lines_.size()); }
-  void begin_tool() { tool_at_ = docks_at_.value_or(lines_.size()); }
+  void begin_tool(int tool);
 
   bool has_layer() const { return layer_at_.has_value(); }
   bool has_tool() const { return tool_at_.has_value(); }

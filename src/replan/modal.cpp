@@ -117,6 +117,13 @@ ModalState of_moving(const ModalState& state) {
   return moving;
 }
 
+bool is_of_tool(std::string_view key) {
+  constexpr std::array<std::string_view, 4> keys = {"M221", "M572", "M900", "SET_PRESSURE_ADVANCE"};
+  const auto begins = [&](std::string_view begin) { return key.starts_with(begin); };
+  const bool names_one = key.find(" T") != key.npos || key.find(" D") != key.npos || key.find("EXTRUDER=") != key.npos;
+  return std::ranges::any_of(keys, begins) && !names_one;
+}
+
 ModalState of_no_object(ModalState state) {
   for (auto& [key, text] : state)
     if (key.starts_with(label_prefix)) text.clear();
@@ -154,6 +161,18 @@ void StateLog::set(std::string_view key, std::string_view text) {
 
 void StateLog::set_first(std::string_view key, std::string_view text) {
   if (!now_.contains(key)) set(key, text);
+}
+
+void StateLog::change_tool(int from, int to) {
+  if (from == to) return;
+  for (auto entry = now_.begin(); entry != now_.end();) {
+    const auto next = std::next(entry);
+    if (is_of_tool(entry->first)) of_tool_[from].insert(now_.extract(entry));
+    entry = next;
+  }
+  now_.merge(of_tool_[to]);
+  of_tool_[to].clear();
+  changed_ = true;
 }
 
 std::uint32_t StateLog::index() {

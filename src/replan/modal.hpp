@@ -38,6 +38,9 @@ std::optional<ModalLine> modal_line(const GcodeLine& line);
 /// What of it says how fast the carriage may become faster and turn.
 ModalState of_moving(const ModalState& state);
 
+/// Whether what is set holds for the tool in use alone: its flow, its pressure advance.
+bool is_of_tool(std::string_view key);
+
 /// The same outside of all objects.
 ModalState of_no_object(ModalState state);
 
@@ -53,6 +56,7 @@ class StateLog {
   void take(const ModalLine& what, std::string_view text);
   void set(std::string_view key, std::string_view text);
   void set_first(std::string_view key, std::string_view text);  // where it is not set yet
+  void change_tool(int from, int to);                           // what is of a tool alone goes and comes with it
 
   std::size_t size() const { return now_.size(); }  // settings
   std::size_t bytes() const { return bytes_; }      // of text, in all states
@@ -66,6 +70,7 @@ class StateLog {
   std::uint32_t index_ = 0;
   std::size_t bytes_ = 0;
   std::map<ModalState, std::uint32_t> known_;
+  std::map<int, ModalState> of_tool_;  // of those that are not in use
 };
 
 }  // namespace cleancolor

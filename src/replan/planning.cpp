@@ -195,7 +195,7 @@ class Planning {
         progress_(progress),
         extruders_(extruders_by_layer(scene)),
         use_(use_of(scene, extruders_)),
-        reach_(reaches(scene, config_)) {
+        reach_(options.knows_bed ? reaches(scene, config_) : std::vector<Polygons>{}) {
     if (use_.extruders.size() < 2)
       throw Error(fmt::format("{}: one nozzle prints it all; there is nothing to keep apart", print.name));
     choose_what_is_walled();
@@ -230,7 +230,7 @@ class Planning {
     } catch (const Error& fault) {
       std::string what = fault.what();
       if (what.ends_with(room_advice)) what.resize(what.size() - room_advice.size());
-      if (reach_.empty())
+      if (options_.knows_bed && reach_.empty())
         what =
             "the print itself lies beyond the bed: look at the printer (--printer), and at the offsets of its nozzles "
             "(--nozzle-offset, --offsets-in)";
@@ -330,7 +330,7 @@ class Planning {
   const Progress& progress_;
   std::vector<std::vector<int>> extruders_;  // of each layer
   Use use_;
-  std::vector<Polygons> reach_;  // of each extruder; empty: the print lies beyond it
+  std::vector<Polygons> reach_;  // of each extruder; empty: it is not known, or the print lies beyond it
   Slices around_;                // what is walled
   bool stands_apart_ = false;
   std::optional<PrintedRampart> rampart_;

@@ -23,6 +23,7 @@ namespace cleancolor {
 
 struct ReplanOptions {
   const SurfaceVisibility* visibility = nullptr;  // of the scene; none: in the order of slicers without protection
+  bool knows_bed = true;                          // else ways may go anywhere
   RampartExtent rampart = RampartExtent::all;
   int threads = 1;
 };

@@ -79,14 +79,14 @@ class Recovery {
     in_.read();
     if (line_.letter == 'M' && (line_.number == 82 || line_.number == 83)) r_.relative_e = line_.number == 83;
     count_e();
-    if (const auto tool = tool_taken(line_); tool && *tool >= 0 && *tool < max_tools) tool_ = *tool;
+    if (const auto tool = tool_taken(line_); tool && *tool >= 0 && *tool < max_tools) use(*tool);
     if (const auto what = modal_line(line_)) take_state(*what);
     take_moves();
   }
 
   void begin_layers() {
     for (const GcodeEvent& e : print_.events)
-      if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) tool_ = e.tool;
+      if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) use(e.tool);
     r_.begin_tool = tool_;
     is_timed_[std::size_t(tool_)] = true;
     for (std::size_t i = in_.behind_moves(); i < print_.moves.size() && print_.moves[i].offset < r_.end; ++i)
@@ -107,7 +107,7 @@ class Recovery {
   void in_layers() {
     const std::string_view before = std::exchange(speed_alone_, {});
     in_.read();
-    if (line_.letter == 'P') speed_alone_ = before;
+    before_ = before;
     if (in_.raw().starts_with(";WIPE_SCRIPT_BEGIN"))
       refuse("nozzles are wiped between layers, which is not re-planned; switch off clean_between_layers in Cura");
     if (in_.raw().starts_with(words_.tower)) return tower();
@@ -160,7 +160,7 @@ class Recovery {
   /// Of tool changers: the tool in use is put down.
   void dock() {
     gap_.dock();
-    if (!speed_alone_.empty()) gap_.add({speed_alone_, in_.at(), false});
+    if (!before_.empty()) gap_.add({before_, in_.at(), false});
     keep(true);
   }
 
@@ -196,6 +196,11 @@ class Recovery {
     keep(true);
   }
 
+  void use(int tool) {
+    states_.change_tool(tool_, tool);
+    tool_ = tool;
+  }
+
   int known_tool(int tool) const {
     if (tool < 0 || tool >= max_tools) refuse("a tool change that is not understood");
     return tool;
@@ -209,10 +214,10 @@ class Recovery {
     if (stands_aside_ && !way_.places.empty()) stand_ = way_.take_last();
     fed_low_ = way_.fed_low;
     leave_run();
-    gap_.begin_tool();
+    gap_.begin_tool(tool);
     breaks_ = true;
     from_tool_ = tool_;
-    tool_ = tool;
+    use(tool);
     if (words_.lifts_at_change && !gap_.has_layer() && !r_.layers.empty())
       r_.change_lift_mm = std::max(r_.change_lift_mm, way_.rise_mm);
     gap_.add({in_.raw(), in_.at(), false});
@@ -221,6 +226,7 @@ class Recovery {
   void command_g() {
     if (line_.number == 17) return;  // the plane of arcs is no other one anywhere
     if (is_spiral()) {
+      if (way_.spiral.empty() && !before_.empty()) way_.spiral.emplace_back(before_);
       way_.spiral.emplace_back(in_.raw());
       breaks_ = true;
       return;
@@ -332,7 +338,7 @@ class Recovery {
       fixed.lines.emplace_back(in_.raw());
       // M220 holds for the tower alone.
       if (const auto what = modal_line(line_); what && line_.number != 220) take_state(*what);
-      if (const auto tool = tool_taken(line_)) tool_ = known_tool(*tool);
+      if (const auto tool = tool_taken(line_)) use(known_tool(*tool));
       take_moves();
       if (in_.next() >= end) break;
     }
@@ -486,7 +492,7 @@ class Recovery {
   FilamentBook book_{max_tools, false};
   std::array<bool, max_tools> is_timed_{};  // its heater, where the dialect times them: it prints among the layers
 
-  std::string_view speed_alone_;  // the line before, if it is one
+  std::string_view speed_alone_, before_;  // the line, and the one before, where they are one
 
   // Since the last road:
   Gap gap_;  // lines to be kept

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "model/text_scan.hpp"
 #include "reader/line.hpp"
 
 namespace cleancolor {
@@ -37,15 +38,25 @@ bool only_tells(const std::string& text) {
   return shows || (line.letter == 0 && line.word.empty() && line.present == 0);
 }
 
-/// Whether they are the same but for what only tells. What tells another thing in both becomes empty in the first.
+/// Without the comment behind it.
+std::string command_of(const std::string& text) {
+  return std::string(trimmed(std::string_view(text).substr(0, text.find(';'))));
+}
+
+/// Whether they are the same but for what only tells. What tells another thing in both goes from the first.
 /// but: makes of a line what must be the same.
 template <class But>
 bool join(ToolChanges::Lines& known, const ToolChanges::Lines& lines, But but) {
   if (known.size() != lines.size()) return false;
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (but(known[i]) == but(lines[i])) continue;
-    if (!only_tells(known[i]) || !only_tells(lines[i])) return false;
-    known[i].clear();
+    const std::string command = command_of(known[i]), other = command_of(lines[i]);
+    if (only_tells(known[i]) && only_tells(lines[i]))
+      known[i].clear();
+    else if (but(command) == but(other))
+      known[i] = command;
+    else
+      return false;
   }
   return true;
 }

@@ -118,6 +118,51 @@ TEST(ReplanPrusaSlicer, ToolsAreDockedAndHeatedByTheFilesOwnCode) {
   EXPECT_EQ(audit_machine(read_gcode(text, ""), {}).idle_nozzle, IdleNozzle::docked);
 }
 
+TEST(ReplanPrusaSlicer, AToolHeatedBeforeItIsTakenIsSoInEachLayerAsThere) {
+  const std::string text = rewritten(fixture("prusaslicer.gcode"), [](const std::string& line, int layer) {
+    if (line != "T0" && line != "T1") return line;
+    return fmt::format("; Filament end\nM109 S{} {} ; layer {}\n{} ; layer {}", layer == 1 ? 225 : 215, line, layer,
+                       line, layer);
+  });
+  std::istringstream lines(replanned_text(text).text);
+  std::string before;
+  int layer = 0, changes = 0;
+  for (std::string line; std::getline(lines, line); before = line) {
+    layer += line == ";LAYER_CHANGE";
+    if (layer == 0 || !line.starts_with("T")) continue;
+    EXPECT_EQ(before, fmt::format("M109 S{} {}", layer == 1 ? 225 : 215, line)) << layer;
+    ++changes;
+  }
+  EXPECT_GE(changes, 6);
+}
+
+TEST(ReplanPrusaSlicer, WhatHoldsForAToolAloneIsToldEachTimeThatItIsTaken) {
+  const std::string of_tool[] = {"M900 K0.05", "M572 S0.04", "SET_PRESSURE_ADVANCE ADVANCE=0.03", "M221 S9"};
+  std::string text = fixture("prusaslicer.gcode");
+  for (std::size_t at = text.find("\nT"); at != text.npos; at = text.find("\nT", at + 3)) {
+    std::string lines;
+    for (const std::string& line : of_tool)
+      lines += "\n" + line + (line.starts_with("M221") ? text.substr(at + 2, 1) : "");
+    text.insert(at + 3, lines);
+  }
+  for (const bool keeps_order : {false, true}) {
+    std::istringstream lines(replanned_text(text, {.keeps_order = keeps_order}).text);
+    std::vector<std::string> told;  // since the tool was taken
+    char tool = '0';
+    bool waits = false;
+    int changes = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (line == "T0" || line == "T1") told.clear(), tool = line[1], waits = true, ++changes;
+      told.push_back(line);
+      if (!waits || !line.starts_with("G1 X") || line.find(" E") == line.npos) continue;
+      for (const std::string& own : of_tool)
+        EXPECT_TRUE(std::ranges::count(told, own.starts_with("M221") ? own + tool : own)) << own << " of T" << tool;
+      waits = false;
+    }
+    EXPECT_GE(changes, 6);
+  }
+}
+
 TEST(ReplanPrusaSlicer, ATimeToWaitOrAToolPutDownElsewhereIsRefused) {
   const std::string text = fixture("prusaslicer.gcode");
   const std::size_t road = text.find(";TYPE:External perimeter");
