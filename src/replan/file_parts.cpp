@@ -72,6 +72,20 @@ std::size_t behind_wipe(std::string_view text, std::size_t at, std::size_t stop,
   return at;
 }
 
+TowerPiece tower_piece(const GcodePrint& print, std::size_t first_road, double z_mm) {
+  TowerPiece piece{.last_road = {}, .next_road_at = print.text->size()};
+  for (std::size_t i = first_road; i < print.moves.size(); ++i) {
+    if (!lays_plastic(print, i)) continue;
+    const GcodeMove& move = print.moves[i];
+    if (move.role != Role::wipe_tower || std::abs(move.to_mm.z - z_mm) > same_height_mm) {
+      piece.next_road_at = move.offset;
+      break;
+    }
+    piece.last_road = i;
+  }
+  return piece;
+}
+
 std::size_t behind_spiral(const GcodePrint& print, std::size_t move) {
   constexpr std::size_t most_moves = 256;
   if (move == 0 || !print.moves[move].known_start) return move;

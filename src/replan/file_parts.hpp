@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,13 @@ std::size_t line_end(std::string_view text, std::size_t at);
 /// Behind the wipe that follows there before `stop`, where the next road is, and anything else but moves and what holds
 /// until it is said anew; `at` where there is none: a wipe goes over the road before it, and so with it.
 std::size_t behind_wipe(std::string_view text, std::size_t at, std::size_t stop, const DialectWords& words);
+
+/// What of a wipe tower is laid at one height, from that road on.
+struct TowerPiece {
+  std::optional<std::size_t> last_road;  // move; nothing: none is
+  std::size_t next_road_at = 0;          // of what follows, in the text; its end where nothing does
+};
+TowerPiece tower_piece(const GcodePrint& print, std::size_t first_road, double z_mm);
 
 /// Behind the moves from there on that lift the nozzle while it goes round, and come back to where they began; the move
 /// itself where there are none. One who goes round on arcs moves in chords.

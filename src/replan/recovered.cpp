@@ -38,15 +38,13 @@ class Recovery {
     r_.begin = layers.begin, r_.end = layers.end, r_.prints_after_end = layers.prints_after;
     for (const GcodeMove& move : print_.moves)
       if (move.offset < r_.begin) r_.begin_z_mm = move.to_mm.z;
-    const FileHabits habits = habits_of_file(print_);
-    r_.e_of_each_tool = habits.e_of_each_tool, r_.says_on_and_off = habits.says_on_and_off;
-    stands_aside_ = habits.stands_aside, says_roles_behind_ = habits.says_roles_behind;
+    r_.e_of_each_tool = habits_.e_of_each_tool, r_.says_on_and_off = habits_.says_on_and_off;
     book_ = FilamentBook(print_.tools, r_.e_of_each_tool);
     while (in_.next() < r_.begin) before_layers();
     begin_layers();
     while (in_.next() < r_.end) in_layers();
     part_headers(r_, changed_, print_, words_);
-    if (r_.lift_slope > 0 && habits.travel_slope > 0) r_.lift_slope = habits.travel_slope;
+    if (r_.lift_slope > 0 && habits_.travel_slope > 0) r_.lift_slope = habits_.travel_slope;
     finish();
     r_.states = std::move(states_).all();
     return std::move(r_);
@@ -85,8 +83,6 @@ class Recovery {
   }
 
   void begin_layers() {
-    for (const GcodeEvent& e : print_.events)
-      if (e.kind == GcodeEvent::Kind::tool_change && e.offset < r_.begin) use(e.tool);
     r_.begin_tool = tool_;
     is_timed_[std::size_t(tool_)] = true;
     for (std::size_t i = in_.behind_moves(); i < print_.moves.size() && print_.moves[i].offset < r_.end; ++i)
@@ -105,9 +101,8 @@ class Recovery {
   }
 
   void in_layers() {
-    const std::string_view before = std::exchange(speed_alone_, {});
+    before_ = std::exchange(speed_alone_, {});
     in_.read();
-    before_ = before;
     if (in_.raw().starts_with(";WIPE_SCRIPT_BEGIN"))
       refuse("nozzles are wiped between layers, which is not re-planned; switch off clean_between_layers in Cura");
     if (in_.raw().starts_with(words_.tower)) return tower();
@@ -116,12 +111,9 @@ class Recovery {
     if (const auto what = modal_line(line_)) return take_state(*what);
     if (line_.letter == 'G') return command_g();
     if (const auto tool = tool_taken(line_)) return change_to(*tool);
-    if (line_.letter == 'M' && line_.number == 73 && line_.has('P')) {
-      if (r_.progress_line.empty() && in_.raw().starts_with("M73 P")) r_.progress_line = in_.raw();
-      return;
-    }
-    if (line_.letter == 'M' && line_.number == 73 && line_.has('Q')) {
-      if (r_.silent_progress_line.empty() && in_.raw().starts_with("M73 Q")) r_.silent_progress_line = in_.raw();
+    if (line_.letter == 'M' && line_.number == 73 && (line_.has('P') || line_.has('Q'))) {
+      std::string& first = line_.has('P') ? r_.progress_line : r_.silent_progress_line;
+      if (first.empty() && in_.raw().starts_with(line_.has('P') ? "M73 P" : "M73 Q")) first = in_.raw();
       return;
     }
     if (r_.says_on_and_off && line_.letter == 'M' && (line_.number == 101 || line_.number == 103)) return;
@@ -209,9 +201,9 @@ class Recovery {
   void change_to(int tool) {
     known_tool(tool);
     if (gap_.has_tool()) refuse("two tool changes without a road between them");
-    if (moved_among_notes_ > 0 && !(stands_aside_ && moved_among_notes_ == 1))
+    if (moved_among_notes_ > 0 && !(habits_.stands_aside && moved_among_notes_ == 1))
       refuse("the carriage is moved by the code before this tool change; it cannot be re-planned");
-    if (stands_aside_ && !way_.places.empty()) stand_ = way_.take_last();
+    if (habits_.stands_aside && !way_.places.empty()) stand_ = way_.take_last();
     fed_low_ = way_.fed_low;
     leave_run();
     gap_.begin_tool(tool);
@@ -297,12 +289,8 @@ class Recovery {
     if (!follows || move.feeds != move.tool) refuse("filament is drawn back on the way, but not after a road");
     if (run().wipe.empty()) {
       // A layer may begin between the road and its wipe.
-      std::vector<FilePoint> from = std::exchange(run().leaving, {}).places;
-      from.insert(from.end(), way_.places.begin(), way_.places.end());
-      run().wipe_from = std::move(from);
-      way_.places.clear();
-      way_.z_um.clear();
-      way_.filament.clear();
+      way_.leave(way_.places.size(), run().leaving);
+      run().wipe_from = std::exchange(run().leaving, {}).places;
       const std::int64_t back = book_.back_of(move.feeds);
       run().back_before_wipe_e5 = back > filament_rounding_e5 ? back : 0;
     } else if (!way_.places.empty()) {
@@ -320,19 +308,13 @@ class Recovery {
     if (in_.first_move() == 0 || gap_.has_tool())
       refuse("a wipe tower that begins with a tool change is not re-planned");
     const Vec3 from = print_.moves[in_.first_move() - 1].to_mm;
-    std::size_t last = 0, i = in_.next_plastic();
-    for (; i < print_.moves.size(); ++i) {
-      if (!lays_plastic(print_, i)) continue;
-      const GcodeMove& move = print_.moves[i];
-      if (move.role != Role::wipe_tower || std::abs(move.to_mm.z - from.z) > same_height_mm) break;
-      last = i;
-    }
-    if (last == 0) return comment();  // it says so, and lays none
+    const TowerPiece piece = tower_piece(print_, in_.next_plastic(), from.z);
+    if (!piece.last_road) return comment();  // it says so, and lays none
     if (book_.back_of(tool_) > filament_rounding_e5) refuse("a wipe tower that begins while filament is drawn back");
     FixedLines fixed{.lines = {}, .lays = true, .state = states_.index(), .drawn_back_e5 = book_.back()};
     close_gap(from);
-    const std::size_t next_road = i < print_.moves.size() ? print_.moves[i].offset : text_.size();
-    const std::size_t end = behind_wipe(text_, line_end(text_, print_.moves[last].offset), next_road, words_);
+    const std::size_t end =
+        behind_wipe(text_, line_end(text_, print_.moves[*piece.last_road].offset), piece.next_road_at, words_);
     for (;; in_.read()) {
       count_e();
       fixed.lines.emplace_back(in_.raw());
@@ -383,7 +365,7 @@ class Recovery {
       run().notes.emplace_back(line.text);
     }
     gap_ = {};
-    if (says_roles_behind_) states_.set(type_key, fmt::format(";TYPE:{}", role_name(move.role)));
+    if (habits_.says_roles_behind) states_.set(type_key, fmt::format(";TYPE:{}", role_name(move.role)));
     const std::uint32_t state = states_.index();
     if (road_state_ != state) road_state_ = state, road_moving_ = of_moving(states_.now());
     run().roads.push_back({.to = file_point(move.to_mm),
@@ -480,6 +462,7 @@ class Recovery {
   const GcodePrint& print_;
   const DialectWords& words_;
   std::string_view text_;
+  const FileHabits habits_ = habits_of_file(print_);
   RecoveredPrint r_;
 
   FileCursor in_{print_};
@@ -503,8 +486,6 @@ class Recovery {
   bool breaks_ = false, left_header_ = false;
   bool travelled_after_tool_ = false;
   int moved_among_notes_ = 0;
-  bool says_roles_behind_ = false;  // roads say behind them what they are: verbose comments of Slic3r
-  bool stands_aside_ = false;       // at changes of tools: the file's ooze_prevention
   std::optional<FilePoint> stand_;  // where it does so this time
   std::vector<ChangedHeader> changed_;
 };
