@@ -359,7 +359,6 @@ class Recovery {
     // Supports and ironing have their own place in the order.
     const bool differ = is_auxiliary(before) != is_auxiliary(move.role);
     if (breaks_ || differ || (before == Role::ironing) != (move.role == Role::ironing)) close_gap(from);
-    if (r_.layers.empty()) refuse("a road before the first layer");
     for (const GapLine& line : gap_.all()) {
       if (line.is_command) refuse_line(print_, line.offset, "a command in the middle of a road: it cannot be moved");
       run().notes.emplace_back(line.text);
